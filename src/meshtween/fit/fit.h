@@ -1,0 +1,43 @@
+// The source's mesh brought onto the target's surface.
+#pragma once
+
+#include "meshtween/core/mesh.h"
+#include "meshtween/core/progress.h"
+#include "meshtween/fit/rbf.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace meshtween {
+
+enum class FitMethod {
+    paper, // marker warp, then rounds of smoothing and projection (Eq. 1-7)
+};
+
+// Lengths are parts of the target's bounding-box diagonal.
+struct FitOptions {
+    FitMethod method = FitMethod::paper;
+    RbfOptions warp;           // of the marker warp
+    int max_rounds = 40;       // of smoothing and projection
+    double threshold = 1e-4;   // stop where sqrt(E / n), E of Eq. 7, falls under this
+    double least_cosine = 0.3; // between a vertex normal and the target's normal where it may be projected
+};
+
+enum class FitEnd { converged, out_of_rounds, cancelled };
+
+struct FitResult {
+    Points positions; // n x 3: the source's vertices on the target
+    FitEnd end = FitEnd::out_of_rounds;
+    int rounds = 0;
+    double error = 0;               // E of Eq. 7, in squared parts of the diagonal, summed over vertices
+    std::vector<double> history;    // sqrt(E / n) after each round, parts of the diagonal
+    long refused_steps = 0;         // vertex moves shortened because they would have turned a triangle over
+    std::vector<std::string> notes; // for people: what was unusual
+};
+
+// Throws Error(argument) for options out of range, Error(computation) for fewer than 3 markers or markers on one line.
+FitResult fit(const Mesh& source, const Mesh& target, std::span<const Marker> markers, const FitOptions& options = {},
+              const Progress& progress = {});
+
+} // namespace meshtween

@@ -1,0 +1,39 @@
+// How good a fit is, by measures that do not depend on how it was made.
+#pragma once
+
+#include "meshtween/core/mesh.h"
+#include "meshtween/io/markers.h"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace meshtween {
+
+// Of a list of values. p95 and p99 are the values at rank floor(q (n - 1)).
+struct Statistics {
+    double mean = 0, rms = 0, median = 0, p95 = 0, p99 = 0, max = 0;
+};
+Statistics statistics(std::vector<double> values);
+
+// Lengths are percent of the target's bounding-box diagonal.
+struct Quality {
+    long vertices = 0, triangles = 0;
+    double eq7 = 0;              // E of Eq. 7 in squared parts of the diagonal
+    Statistics vertex_to_target; // every vertex of the fitted mesh
+    Statistics fitted_to_target; // 100,000 points spread evenly over the fitted surface
+    Statistics target_to_fitted; // and over the target's
+    long flipped = 0;            // faces whose normal opposes the target's at the point closest to their centre
+    double flipped_area_percent = 0;
+    long degenerate = 0; // faces with less than 1e-14 of the diagonal squared as double area
+    long cuts = 0, cuts_source = 0, cuts_target = 0; // pairs of faces that cut each other
+    Statistics symmetric_dirichlet; // of each face's map source -> fitted: s1^2 + s2^2 + 1/s1^2 + 1/s2^2, 4 an isometry
+    std::optional<Statistics> truth_error, marker_error;
+};
+
+// `truth`: n x 3, where each vertex should be, empty if not known; `markers`: pairs to score, empty for none. Throws
+// Error(argument) where the meshes do not belong together.
+Quality measure(const Mesh& source, const Mesh& fitted, const Mesh& target, const Points& truth = {},
+                std::span<const MarkerPair> markers = {});
+
+} // namespace meshtween

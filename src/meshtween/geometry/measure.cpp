@@ -1,0 +1,67 @@
+#include "meshtween/geometry/measure.h"
+
+#include "meshtween/core/parallel.h"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace meshtween {
+
+double diagonal(const Points& positions) {
+    if (positions.rows() == 0) return 0;
+    return (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
+}
+
+double triangle_area(const Points& positions, const Triangles& triangles, Eigen::Index t) {
+    return double_area_normal(positions, triangles, t).norm() / 2;
+}
+
+double surface_area(const Points& positions, const Triangles& triangles) {
+    return parallel_sum(triangles.rows(), 0.0, [&](Eigen::Index t) { return triangle_area(positions, triangles, t); });
+}
+
+double volume(const Points& positions, const Triangles& triangles) {
+    if (positions.rows() == 0) return 0;
+    const Point origin = positions.row(0);
+    return parallel_sum(triangles.rows(), 0.0,
+                        [&](Eigen::Index t) {
+                            const Point a = positions.row(triangles(t, 0)) - origin,
+                                        b = positions.row(triangles(t, 1)) - origin,
+                                        c = positions.row(triangles(t, 2)) - origin;
+                            return a.dot(b.cross(c));
+                        }) /
+           6;
+}
+
+Points triangle_normals(const Points& positions, const Triangles& triangles) {
+    Points normals(triangles.rows(), 3);
+    parallel_for(triangles.rows(), [&](Eigen::Index t) {
+        const Point n = double_area_normal(positions, triangles, t);
+        const double length = n.norm();
+        if (length > 0)
+            normals.row(t) = n / length;
+        else
+            normals.row(t).setZero();
+    });
+    return normals;
+}
+
+Points vertex_normals(const Points& positions, const Triangles& triangles) {
+    const Points faces = triangle_normals(positions, triangles);
+    Points normals = Points::Zero(positions.rows(), 3);
+    for (Eigen::Index t = 0; t < triangles.rows(); ++t)
+        for (int k = 0; k < 3; ++k) {
+            const Point corner = positions.row(triangles(t, k));
+            const Point e = positions.row(triangles(t, (k + 1) % 3)) - corner;
+            const Point f = positions.row(triangles(t, (k + 2) % 3)) - corner;
+            normals.row(triangles(t, k)) += std::atan2(e.cross(f).norm(), e.dot(f)) * faces.row(t);
+        }
+    parallel_for(normals.rows(), [&](Eigen::Index i) {
+        const double length = normals.row(i).norm();
+        if (length > 0) normals.row(i) /= length;
+    });
+    return normals;
+}
+
+} // namespace meshtween

@@ -1,0 +1,34 @@
+// Pairs of corresponding points from files: our CSV, MeshLab .pp, Slicer .fcsv and .mrk.json, Wrap .json, index lists.
+#pragma once
+
+#include "meshtween/core/mesh.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace meshtween {
+
+struct MarkerPair {
+    std::string name;
+    Point source{0, 0, 0}; // on or near the source's surface
+    Point target{0, 0, 0};
+};
+
+struct MarkerPairs {
+    std::vector<MarkerPair> pairs;
+    std::vector<std::string> notes; // what was left out or looks wrong, a sentence each, for people
+};
+
+// One file for both sides. Names pairs by the file's names, else by their number from 1. Index and barycentric formats
+// are resolved on the meshes. Pairs with a missing side are left out and told in the notes. Throws Error(file) naming
+// file and line.
+MarkerPairs read_marker_pairs(const std::filesystem::path& path, const Mesh& source, const Mesh& target);
+
+// One file a side, matched by name (by order where neither has names; then their numbers must agree).
+MarkerPairs read_marker_pairs(const std::filesystem::path& source_path, const std::filesystem::path& target_path,
+                              const Mesh& source, const Mesh& target);
+
+void write_marker_pairs(const std::vector<MarkerPair>& pairs, const std::filesystem::path& path);
+
+} // namespace meshtween

@@ -1,0 +1,20 @@
+// Files that appear whole or not at all.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <ostream>
+#include <string_view>
+
+namespace meshtween {
+
+// Runs `write` on a stream to a temporary file beside `path`, flushes it and renames it over `path`. On any failure
+// (no such folder, no permission, a full disk, an exception from `write`) the temporary file is removed, what was at
+// `path` stays as it was, and Error(file) says what could not be written and why.
+void write_whole(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
+void write_whole(const std::filesystem::path& path, std::string_view contents);
+
+// The file's bytes. Throws Error(file): not there, a folder, not readable.
+std::string read_whole(const std::filesystem::path& path);
+
+} // namespace meshtween

@@ -1,0 +1,25 @@
+// Any path as a few meshes and their weights: what makes frames cheap and glTF files small.
+#pragma once
+
+#include "meshtween/morph/morph.h"
+
+namespace meshtween {
+
+struct CurveOptions {
+    double tolerance = 1e-4; // largest deviation from the path, checked between nodes, parts of `from`'s diagonal
+    int max_nodes = 33;      // Chebyshev-Lobatto nodes at most
+};
+
+// p(u) = sum_k weights(u)[k] nodes[k]: the polynomial through the path at Chebyshev-Lobatto nodes of [0, 1].
+struct Curve {
+    std::vector<double> parameters;              // K ascending nodes, the first 0, the last 1
+    std::vector<Points> nodes;                   // K meshes, the first and last the ends exactly
+    double deviation = 0;                        // the largest found between nodes, parts of the diagonal
+    std::vector<double> weights(double u) const; // K barycentric Lagrange weights, adding up to 1
+    Points at(double u) const;
+};
+
+// Doubles K - 1 until the deviation is within the tolerance; says in `deviation` where max_nodes was not enough.
+Curve curve(const Morph& morph, const CurveOptions& options = {}, const Progress& progress = {});
+
+} // namespace meshtween

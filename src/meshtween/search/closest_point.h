@@ -1,0 +1,54 @@
+// The closest point on a surface: what the program does most.
+#pragma once
+
+#include "meshtween/core/mesh.h"
+
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace meshtween {
+
+struct ClosestPoint {
+    Point position{0, 0, 0};
+    SurfacePoint where; // where.triangle is -1 where nothing was found within the bound
+    double squared_distance = std::numeric_limits<double>::infinity();
+    bool found() const { return where.triangle >= 0; }
+};
+
+// What a closest point must satisfy beside being close.
+struct Compatible {
+    Point normal{0, 0, 0};    // of the asking point, unit; zero accepts every triangle
+    double least_cosine = -1; // between it and the triangle's normal
+};
+
+// Prepared once over a mesh that does not change, asked often, from any number of threads. Answers in double.
+class ClosestPointIndex {
+public:
+    // O(n log n). Triangles without area are points and edges like any other. Throws Error(computation) without
+    // triangles.
+    ClosestPointIndex(const Points& positions, const Triangles& triangles);
+    explicit ClosestPointIndex(const Mesh& mesh) : ClosestPointIndex(mesh.positions, mesh.triangles) {}
+    ~ClosestPointIndex();
+    ClosestPointIndex(ClosestPointIndex&&) noexcept;
+    ClosestPointIndex& operator=(ClosestPointIndex&&) noexcept;
+
+    // The closest point; `hint` is a triangle that is probably near (the last answer's), which bounds the search.
+    ClosestPoint closest(const Point& query, int hint = -1) const;
+
+    // The closest point among the compatible triangles no further than max_distance; not found where there is none.
+    ClosestPoint closest(const Point& query, const Compatible& compatible,
+                         double max_distance = std::numeric_limits<double>::infinity(), int hint = -1) const;
+
+    // A row of queries, in parallel; hints empty or one a query.
+    std::vector<ClosestPoint> closest(const Points& queries, std::span<const int> hints = {}) const;
+
+    const Points& normals() const; // m x 3 unit triangle normals, zero rows for triangles without area
+
+private:
+    struct Data;
+    std::unique_ptr<Data> data_;
+};
+
+} // namespace meshtween

@@ -1,0 +1,16 @@
+// Pairs of faces that cut each other.
+#pragma once
+
+#include "meshtween/core/mesh.h"
+
+#include <array>
+#include <vector>
+
+namespace meshtween {
+
+// Pairs of triangles (smaller index first, ascending) that meet in more than their shared vertices or edge, decided
+// with exact predicates. Degenerate triangles are left out. Faces that share an edge count where they are folded flat
+// onto each other; faces that share a vertex count where an opposite edge of one meets the other.
+std::vector<std::array<int, 2>> self_intersections(const Points& positions, const Triangles& triangles);
+
+} // namespace meshtween

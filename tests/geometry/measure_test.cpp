@@ -1,0 +1,57 @@
+#include "meshtween/geometry/measure.h"
+
+#include <gtest/gtest.h>
+
+namespace meshtween {
+namespace {
+
+Mesh unit_cube() {
+    Mesh mesh;
+    mesh.positions.resize(8, 3);
+    for (int i = 0; i < 8; ++i) mesh.positions.row(i) << (i & 1), (i >> 1 & 1), (i >> 2 & 1);
+    mesh.triangles.resize(12, 3);
+    mesh.triangles << 0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5,
+        3, 7, 5;
+    return mesh;
+}
+
+TEST(Measure, Cube) {
+    const Mesh cube = unit_cube();
+    EXPECT_DOUBLE_EQ(volume(cube.positions, cube.triangles), 1);
+    EXPECT_DOUBLE_EQ(surface_area(cube.positions, cube.triangles), 6);
+    EXPECT_DOUBLE_EQ(diagonal(cube.positions), std::sqrt(3.0));
+}
+
+TEST(Measure, InsideOutHasNegativeVolume) {
+    Mesh cube = unit_cube();
+    cube.triangles.col(0).swap(cube.triangles.col(1));
+    EXPECT_DOUBLE_EQ(volume(cube.positions, cube.triangles), -1);
+}
+
+TEST(Measure, VolumeDoesNotDependOnThePlace) {
+    Mesh cube = unit_cube();
+    cube.positions.rowwise() += Point(1e6, -1e6, 1e6);
+    EXPECT_NEAR(volume(cube.positions, cube.triangles), 1, 1e-9);
+}
+
+TEST(Measure, NormalsOfTheCubeLookAlongItsDiagonals) {
+    const Mesh cube = unit_cube();
+    const Points normals = vertex_normals(cube.positions, cube.triangles);
+    for (int i = 0; i < 8; ++i) {
+        const Point outward = (cube.positions.row(i) - Point(0.5, 0.5, 0.5)).normalized();
+        EXPECT_NEAR((normals.row(i) - outward).norm(), 0, 1e-12) << i;
+    }
+}
+
+TEST(Measure, NoAreaNoNormal) {
+    Points line(3, 3);
+    line << 0, 0, 0, 1, 0, 0, 2, 0, 0;
+    Triangles one(1, 3);
+    one << 0, 1, 2;
+    EXPECT_EQ(triangle_normals(line, one).norm(), 0);
+    EXPECT_EQ(vertex_normals(line, one).norm(), 0);
+    EXPECT_EQ(diagonal(Points(0, 3)), 0);
+}
+
+} // namespace
+} // namespace meshtween
