@@ -3,6 +3,7 @@
 
 #include "meshtween/core/mesh.h"
 
+#include <concepts>
 #include <limits>
 #include <memory>
 #include <span>
@@ -41,12 +42,18 @@ public:
     ClosestPoint closest(const Point& query, const Compatible& compatible,
                          double max_distance = std::numeric_limits<double>::infinity(), int hint = -1) const;
 
-    // A row of queries, in parallel; hints empty or one a query.
-    std::vector<ClosestPoint> closest(const Points& queries, std::span<const int> hints = {}) const;
+    // Many queries, in parallel; hints empty or one a query. (A template for the type alone: a row of points is one
+    // point.)
+    template <std::same_as<Points> Queries>
+    std::vector<ClosestPoint> closest(const Queries& queries, std::span<const int> hints = {}) const {
+        return closest_of_each(queries, hints);
+    }
 
     const Points& normals() const; // m x 3 unit triangle normals, zero rows for triangles without area
 
 private:
+    std::vector<ClosestPoint> closest_of_each(const Points& queries, std::span<const int> hints) const;
+
     struct Data;
     std::unique_ptr<Data> data_;
 };
