@@ -1,0 +1,30 @@
+// Binary glTF 2.0 in memory: a mesh, alone or with the shapes that an animation plays.
+#pragma once
+
+#include "meshtween/core/mesh.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace meshtween {
+
+// What a player blends: the mesh's own positions are the base, each shape is a morph target.
+struct GltfMorph {
+    std::span<const Points> shapes; // K shapes of the mesh's connectivity, n x 3 each
+    std::vector<std::string> names; // K
+    std::vector<double> parameters; // K + 1: where on the path the base and the shapes lie; for players, in the extras
+    std::vector<float> times;       // T seconds, ascending from 0
+    std::vector<float> weights;     // T x K, a row a time
+};
+
+// Positions, normals, colours and UVs as one GLB. Vertex i of the file is vertex i of the mesh; a vertex with several
+// UVs (a seam) is repeated after all others. Positions are float: where the mesh lies far from the origin for its size,
+// they are written relative to its centre, which the node's translation brings back. Colours are taken as sRGB and
+// written linear, as glTF has them.
+// Throws Error(argument): no faces, an index out of range, a number that is not finite, shapes of another size, or more
+// than a GLB can hold (4 GiB).
+std::string mesh_glb(const Mesh& mesh, const std::string& name = "mesh");
+std::string mesh_glb(const Mesh& mesh, const GltfMorph& morph, const std::string& name = "mesh");
+
+} // namespace meshtween
