@@ -1,0 +1,189 @@
+// I. Wald, On fast Construction of SAH-based Bounding Volume Hierarchies, IEEE Symposium on Interactive Ray Tracing,
+// 2007: the surface area heuristic over a few bins of box centres.
+#include "meshtween/search/box_tree.h"
+
+#include "meshtween/core/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace meshtween::search {
+namespace {
+
+constexpr int bin_count = 16;
+constexpr int deepest_by_area = BoxTree::deepest - 32; // below, halves: 2^31 items are no deeper than 31 of them
+
+struct Work {
+    int node, begin, end, depth;
+};
+
+struct Builder {
+    const std::vector<FloatBox>& boxes;
+    std::vector<int>& order;
+    int leaf_size;
+
+    int& item(int i) const { return order[static_cast<std::size_t>(i)]; }
+    const FloatBox& box(int i) const { return boxes[static_cast<std::size_t>(item(i))]; }
+    static float centre(const FloatBox& box, std::size_t axis) { return 0.5F * (box.low[axis] + box.high[axis]); }
+
+    // Makes the node for begin..end: a leaf, or an inner node and its two children's work.
+    void make(std::vector<BoxTree::Node>& nodes, const Work& work, std::vector<Work>& todo) const;
+    int divide(const Work& work, const FloatBox& centres) const;
+};
+
+struct Bin {
+    FloatBox box;
+    int count = 0;
+};
+
+struct Split {
+    float cost = std::numeric_limits<float>::infinity();
+    std::size_t axis = 0;
+    int bin = 0; // the first on the right
+};
+
+// Where along this axis the two sides' areas times counts are least.
+void best_split(const std::array<Bin, bin_count>& bins, std::size_t axis, Split& best) {
+    std::array<float, bin_count> right_cost{};
+    Bin right;
+    for (int b = bin_count - 1; b > 0; --b) {
+        right.box.extend(bins[static_cast<std::size_t>(b)].box);
+        right.count += bins[static_cast<std::size_t>(b)].count;
+        right_cost[static_cast<std::size_t>(b)] =
+            right.count > 0 ? right.box.half_area() * static_cast<float>(right.count) : -1;
+    }
+    Bin left;
+    for (int b = 1; b < bin_count; ++b) {
+        left.box.extend(bins[static_cast<std::size_t>(b - 1)].box);
+        left.count += bins[static_cast<std::size_t>(b - 1)].count;
+        if (left.count == 0 || right_cost[static_cast<std::size_t>(b)] < 0) continue;
+        const float cost =
+            left.box.half_area() * static_cast<float>(left.count) + right_cost[static_cast<std::size_t>(b)];
+        if (cost < best.cost) best = {cost, axis, b};
+    }
+}
+
+int Builder::divide(const Work& work, const FloatBox& centres) const {
+    const int half = work.begin + (work.end - work.begin) / 2;
+    std::array<float, 3> to_bin{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const float size = centres.high[k] - centres.low[k];
+        to_bin[k] = size > 0 ? bin_count * (1 - 1e-6F) / size : 0;
+    }
+    const auto bin_of = [&](const FloatBox& b, std::size_t k) {
+        return std::clamp(static_cast<int>((centre(b, k) - centres.low[k]) * to_bin[k]), 0, bin_count - 1);
+    };
+    Split best;
+    if (work.depth < deepest_by_area) {
+        std::array<std::array<Bin, bin_count>, 3> bins;
+        for (int i = work.begin; i < work.end; ++i)
+            for (std::size_t k = 0; k < 3; ++k) {
+                Bin& bin = bins[k][static_cast<std::size_t>(bin_of(box(i), k))];
+                bin.box.extend(box(i));
+                ++bin.count;
+            }
+        for (std::size_t k = 0; k < 3; ++k) best_split(bins[k], k, best);
+    }
+    if (!std::isfinite(best.cost)) return half; // all centres in one place, or deep enough
+    const auto right = std::partition(order.begin() + work.begin, order.begin() + work.end, [&](int t) {
+        return bin_of(boxes[static_cast<std::size_t>(t)], best.axis) < best.bin;
+    });
+    return static_cast<int>(right - order.begin());
+}
+
+void Builder::make(std::vector<BoxTree::Node>& nodes, const Work& work, std::vector<Work>& todo) const {
+    FloatBox all, centres;
+    for (int i = work.begin; i < work.end; ++i) {
+        const FloatBox& b = box(i);
+        all.extend(b);
+        const std::array<float, 3> middle{centre(b, 0), centre(b, 1), centre(b, 2)};
+        centres.extend({middle, middle});
+    }
+    BoxTree::Node& node = nodes[static_cast<std::size_t>(work.node)];
+    node.box = all;
+    if (work.end - work.begin <= leaf_size) {
+        node.first = work.begin;
+        node.count = work.end - work.begin;
+        return;
+    }
+    const int middle = divide(work, centres), left = static_cast<int>(nodes.size());
+    node.first = left;
+    nodes.resize(nodes.size() + 2);
+    todo.push_back({left + 1, middle, work.end, work.depth + 1});
+    todo.push_back({left, work.begin, middle, work.depth + 1});
+}
+
+} // namespace
+
+Frame frame(const Points& positions) {
+    Frame result;
+    const Point low = positions.colwise().minCoeff(), high = positions.colwise().maxCoeff();
+    result.origin = low / 2 + high / 2;
+    int exponent = 0;
+    std::frexp((high / 2 - low / 2).maxCoeff(), &exponent); // 0 for a single point
+    result.scale = std::ldexp(1.0, std::clamp(-exponent, -1000, 1000));
+    return result;
+}
+
+std::vector<FloatBox> triangle_boxes(const Points& positions, const Triangles& triangles, const Frame& frame) {
+    std::vector<FloatBox> boxes(static_cast<std::size_t>(triangles.rows()));
+    parallel_for(triangles.rows(), [&](Eigen::Index t) {
+        FloatBox& box = boxes[static_cast<std::size_t>(t)];
+        for (int corner = 0; corner < 3; ++corner) {
+            const Point p = frame.into(positions.row(triangles(t, corner)));
+            for (int k = 0; k < 3; ++k) {
+                const auto axis = static_cast<std::size_t>(k);
+                const float rounded = static_cast<float>(p[k]);
+                box.low[axis] = std::min(box.low[axis], std::nextafter(rounded, -FloatBox::nowhere));
+                box.high[axis] = std::max(box.high[axis], std::nextafter(rounded, FloatBox::nowhere));
+            }
+        }
+    });
+    return boxes;
+}
+
+BoxTree box_tree(const std::vector<FloatBox>& boxes, int leaf_size) {
+    BoxTree tree;
+    const int count = static_cast<int>(boxes.size());
+    if (count == 0) return tree;
+    tree.order.resize(boxes.size());
+    std::iota(tree.order.begin(), tree.order.end(), 0);
+    const Builder builder{boxes, tree.order, leaf_size};
+    // The top of the tree first, then the subtrees beside each other; where to cut depends on the items alone.
+    const int small = std::max(4096, count / 64);
+    std::vector<Work> todo{{0, 0, count, 0}}, subtrees;
+    tree.nodes.resize(1);
+    while (!todo.empty()) {
+        const Work work = todo.back();
+        todo.pop_back();
+        if (work.end - work.begin <= small)
+            subtrees.push_back(work);
+        else
+            builder.make(tree.nodes, work, todo);
+    }
+    std::vector<std::vector<BoxTree::Node>> grown(subtrees.size());
+    parallel_for(
+        static_cast<std::ptrdiff_t>(subtrees.size()),
+        [&](std::ptrdiff_t s) {
+            const auto i = static_cast<std::size_t>(s);
+            grown[i].resize(1);
+            std::vector<Work> rest{{0, subtrees[i].begin, subtrees[i].end, subtrees[i].depth}};
+            while (!rest.empty()) {
+                const Work work = rest.back();
+                rest.pop_back();
+                builder.make(grown[i], work, rest);
+            }
+        },
+        1);
+    for (std::size_t s = 0; s < subtrees.size(); ++s) {
+        const int shift = static_cast<int>(tree.nodes.size()) - 1; // a subtree's root takes the place kept for it
+        for (BoxTree::Node& node : grown[s])
+            if (node.count == 0) node.first += shift;
+        tree.nodes[static_cast<std::size_t>(subtrees[s].node)] = grown[s].front();
+        tree.nodes.insert(tree.nodes.end(), grown[s].begin() + 1, grown[s].end());
+    }
+    return tree;
+}
+
+} // namespace meshtween::search

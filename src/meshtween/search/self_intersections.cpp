@@ -1,0 +1,215 @@
+// Boxes that overlap come from the tree, met with itself; exact orientations decide, so that the answer does not
+// depend on the order of evaluation. Triangles and segments are closed: touching is meeting.
+#include "meshtween/search/self_intersections.h"
+
+#include "meshtween/core/parallel.h"
+#include "meshtween/geometry/predicates.h"
+#include "meshtween/search/box_tree.h"
+
+#include <algorithm>
+
+namespace meshtween {
+namespace {
+
+using Corners = std::array<Point, 3>;
+
+// The plane coordinates, by leaving one axis out, in which a triangle keeps its area, and its turn there.
+struct Projection {
+    int x = 0, y = 1, turn = 0;
+
+    explicit Projection(const Corners& t) {
+        for (const auto& [first, second] : {std::pair{0, 1}, std::pair{1, 2}, std::pair{2, 0}}) {
+            x = first;
+            y = second;
+            turn = orient2d(flat(t[0]), flat(t[1]), flat(t[2]));
+            if (turn != 0) return;
+        }
+    }
+    PlanePoint flat(const Point& p) const { return {p[x], p[y]}; }
+    int side(const Point& a, const Point& b, const Point& p) const { return orient2d(flat(a), flat(b), flat(p)); }
+};
+
+bool between(const PlanePoint& a, const PlanePoint& b, const PlanePoint& p) { // for a, b, p on one line
+    return p.cwiseMin(a.cwiseMin(b)) == a.cwiseMin(b) && p.cwiseMax(a.cwiseMax(b)) == a.cwiseMax(b);
+}
+
+bool segments_meet(const Projection& in, const Point& a, const Point& b, const Point& p, const Point& q) {
+    const int sp = in.side(a, b, p), sq = in.side(a, b, q), sa = in.side(p, q, a), sb = in.side(p, q, b);
+    if (sp * sq < 0 && sa * sb < 0) return true;
+    return (sp == 0 && between(in.flat(a), in.flat(b), in.flat(p))) ||
+           (sq == 0 && between(in.flat(a), in.flat(b), in.flat(q))) ||
+           (sa == 0 && between(in.flat(p), in.flat(q), in.flat(a))) ||
+           (sb == 0 && between(in.flat(p), in.flat(q), in.flat(b)));
+}
+
+bool segment_meets_in_plane(const Point& p, const Point& q, const Corners& t) {
+    const Projection in(t);
+    bool inside = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (segments_meet(in, p, q, t[k], t[(k + 1) % 3])) return true;
+        inside = inside && in.side(t[k], t[(k + 1) % 3], p) * in.turn >= 0;
+    }
+    return inside;
+}
+
+bool segment_meets(const Point& p, const Point& q, const Corners& t) {
+    const int sp = orient3d(t[0], t[1], t[2], p), sq = orient3d(t[0], t[1], t[2], q);
+    if (sp * sq > 0) return false;
+    if (sp == 0 && sq == 0) return segment_meets_in_plane(p, q, t);
+    const int first = orient3d(p, q, t[0], t[1]), second = orient3d(p, q, t[1], t[2]);
+    if (first * second < 0) return false;
+    const int third = orient3d(p, q, t[2], t[0]);
+    return first * third >= 0 && second * third >= 0;
+}
+
+bool on_one_side(const Corners& plane, const Corners& t) {
+    const int first = orient3d(plane[0], plane[1], plane[2], t[0]);
+    return first != 0 && orient3d(plane[0], plane[1], plane[2], t[1]) == first &&
+           orient3d(plane[0], plane[1], plane[2], t[2]) == first;
+}
+
+bool triangles_meet(const Corners& s, const Corners& t) {
+    if (on_one_side(s, t) || on_one_side(t, s)) return false;
+    for (std::size_t k = 0; k < 3; ++k)
+        if (segment_meets(s[k], s[(k + 1) % 3], t) || segment_meets(t[k], t[(k + 1) % 3], s)) return true;
+    return false;
+}
+
+struct Surface {
+    const Points& positions;
+    const Triangles& triangles;
+
+    Corners corners(int t) const {
+        return {positions.row(triangles(t, 0)), positions.row(triangles(t, 1)), positions.row(triangles(t, 2))};
+    }
+    bool boxes_meet(const Corners& s, const Corners& t) const {
+        for (int k = 0; k < 3; ++k) {
+            const auto [s_low, s_high] = std::minmax({s[0][k], s[1][k], s[2][k]});
+            const auto [t_low, t_high] = std::minmax({t[0][k], t[1][k], t[2][k]});
+            if (s_high < t_low || t_high < s_low) return false;
+        }
+        return true;
+    }
+    bool cut(int s, int t) const;
+};
+
+// Corners of both triangles, the shared ones first, in the same order in both.
+struct Arranged {
+    Corners s, t;
+    int shared = 0;
+};
+
+Arranged arrange(const Surface& surface, int s, int t) {
+    Arranged result{surface.corners(s), surface.corners(t)};
+    std::array<int, 3> in_s{}, in_t{};
+    for (int k = 0; k < 3; ++k) {
+        in_s[static_cast<std::size_t>(k)] = surface.triangles(s, k);
+        in_t[static_cast<std::size_t>(k)] = surface.triangles(t, k);
+    }
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = static_cast<std::size_t>(result.shared); j < 3; ++j)
+            if (in_s[i] == in_t[j]) {
+                const auto k = static_cast<std::size_t>(result.shared++);
+                std::swap(in_s[i], in_s[k]);
+                std::swap(in_t[j], in_t[k]);
+                std::swap(result.s[i], result.s[k]);
+                std::swap(result.t[j], result.t[k]);
+                break;
+            }
+    return result;
+}
+
+bool Surface::cut(int s, int t) const {
+    if (!boxes_meet(corners(s), corners(t))) return false;
+    const Arranged pair = arrange(*this, s, t);
+    switch (pair.shared) {
+    case 0:
+        return triangles_meet(pair.s, pair.t);
+    case 1:
+        return segment_meets(pair.s[1], pair.s[2], pair.t) || segment_meets(pair.t[1], pair.t[2], pair.s);
+    case 2: { // folded flat: in one plane, and the third corners on one side of the edge
+        if (orient3d(pair.s[0], pair.s[1], pair.s[2], pair.t[2]) != 0) return false;
+        const Projection in(pair.s);
+        return in.side(pair.s[0], pair.s[1], pair.t[2]) == in.turn;
+    }
+    default:
+        return true;
+    }
+}
+
+using Pairs = std::vector<std::array<int, 2>>;
+
+// All cutting pairs of a leaf with itself and with the leaves after it.
+void meet(const Surface& surface, const search::BoxTree& tree, int leaf, Pairs& found) {
+    const auto& own = tree.nodes[static_cast<std::size_t>(leaf)];
+    const auto item = [&](int i) { return tree.order[static_cast<std::size_t>(i)]; };
+    std::array<int, search::BoxTree::deepest + 1> stack;
+    std::size_t top = 0;
+    stack[top++] = 0;
+    while (top > 0) {
+        const auto& node = tree.nodes[static_cast<std::size_t>(stack[--top])];
+        if (!overlap(node.box, own.box)) continue;
+        if (node.count == 0) {
+            stack[top++] = node.first;
+            stack[top++] = node.first + 1;
+            continue;
+        }
+        for (int i = own.first; i < own.first + own.count; ++i)
+            for (int j = std::max(node.first, i + 1); j < node.first + node.count; ++j)
+                if (surface.cut(item(i), item(j)))
+                    found.push_back({std::min(item(i), item(j)), std::max(item(i), item(j))});
+    }
+}
+
+struct Leaves {
+    search::BoxTree tree; // over the triangles that have area, by their own numbers
+    std::vector<int> leaves;
+};
+
+Leaves leaves_over_area(const Surface& surface) {
+    const Triangles& triangles = surface.triangles;
+    std::vector<char> has_area(static_cast<std::size_t>(triangles.rows()));
+    parallel_for(triangles.rows(), [&](Eigen::Index t) {
+        const Corners c = surface.corners(static_cast<int>(t));
+        has_area[static_cast<std::size_t>(t)] = !collinear(c[0], c[1], c[2]);
+    });
+    std::vector<search::FloatBox> boxes =
+        search::triangle_boxes(surface.positions, triangles, search::frame(surface.positions));
+    std::vector<int> number;
+    for (std::size_t t = 0; t < boxes.size(); ++t)
+        if (has_area[t]) {
+            boxes[number.size()] = boxes[t];
+            number.push_back(static_cast<int>(t));
+        }
+    boxes.resize(number.size());
+    Leaves result{search::box_tree(boxes, 4), {}};
+    for (int& item : result.tree.order) item = number[static_cast<std::size_t>(item)];
+    for (std::size_t n = 0; n < result.tree.nodes.size(); ++n)
+        if (result.tree.nodes[n].count > 0) result.leaves.push_back(static_cast<int>(n));
+    return result;
+}
+
+} // namespace
+
+std::vector<std::array<int, 2>> self_intersections(const Points& positions, const Triangles& triangles) {
+    if (triangles.rows() == 0) return {};
+    const Surface surface{positions, triangles};
+    const Leaves leaves = leaves_over_area(surface);
+    constexpr std::ptrdiff_t grain = 32;
+    const auto count = static_cast<std::ptrdiff_t>(leaves.leaves.size());
+    std::vector<Pairs> found(static_cast<std::size_t>((count + grain - 1) / grain));
+    parallel_for(
+        static_cast<std::ptrdiff_t>(found.size()),
+        [&](std::ptrdiff_t b) {
+            for (std::ptrdiff_t i = b * grain; i < std::min(count, (b + 1) * grain); ++i)
+                meet(surface, leaves.tree, leaves.leaves[static_cast<std::size_t>(i)],
+                     found[static_cast<std::size_t>(b)]);
+        },
+        1);
+    Pairs all;
+    for (const Pairs& some : found) all.insert(all.end(), some.begin(), some.end());
+    std::sort(all.begin(), all.end());
+    return all;
+}
+
+} // namespace meshtween
