@@ -15,7 +15,7 @@ enum class Kernel {
 
 struct RbfOptions {
     Kernel kernel = Kernel::thin_plate;
-    double smoothing = 0; // added to the diagonal of Eq. 5, in normalised coordinates; 0 meets the points exactly
+    double smoothing = 0; // at least 0; stiffens the diagonal of Eq. 5, in normalised coordinates; 0 meets the points
 };
 
 // f(x) = x + sum_j lambda_j phi(x - c_j) + P(x), kept in coordinates where the points lie in a box of unit diagonal.
@@ -27,13 +27,15 @@ struct RbfWarp {
     Point origin{0, 0, 0};
     double scale = 1; // normalised = (x - origin) * scale
 
-    // n x 3 to n x 3, in parallel and vectorised.
+    // n x 3 to n x 3, in parallel and vectorised. The warp of a point does not depend on the other points, to the bit.
     Points operator()(const Points& points) const;
 };
 
-// Solves Eq. 5 for `from` -> `to`, both N x 3 with 4 <= N <= 5000 or so (O(N^3)); with 3 points or points on a plane
-// the polynomial part is the best rigid motion with scale. Throws Error(computation) naming coincident points that go
-// to different places, or points all on a line; `names`, if given, are used in messages.
+// Solves Eq. 5 for `from` -> `to`, both N x 3 with 3 <= N <= 5000 or so (O(N^3) time, O(N^2) memory). Affine maps are
+// met everywhere; where the points lie on a plane (3 points always do), the plane goes as they say and its normal
+// direction as the best rigid motion with scale does. Points that coincide and go to one place count once. Throws
+// Error(argument) for points that do not pair up or are not finite, Error(computation) for fewer than 3 points, points
+// all on a line, or points that (nearly) coincide but go to different places; `names`, if given, are used in messages.
 RbfWarp warp(const Points& from, const Points& to, const RbfOptions& options = {},
              const std::vector<std::string>& names = {});
 
