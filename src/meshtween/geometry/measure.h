@@ -3,6 +3,8 @@
 
 #include "meshtween/core/mesh.h"
 
+#include <Eigen/Geometry>
+
 namespace meshtween {
 
 // The length of the bounding box's diagonal, the length to which all relative lengths refer. 0 for no points.

@@ -15,6 +15,10 @@ namespace meshtween {
 // can hold, no faces.
 Mesh read_mesh(const std::filesystem::path& path);
 
+// Reads meshes that are meant to have one connectivity. A file whose polygons are those of the first is cut into
+// triangles as the first is, so that a mesh of quads in two poses stays one mesh. Throws as read_mesh.
+std::vector<Mesh> read_meshes(const std::vector<std::filesystem::path>& paths);
+
 // Writes beside `path`, then renames: a failure leaves nothing half-written. Doubles in text keep all their digits.
 // Throws Error(argument) for an unknown extension, Error(file) where writing fails.
 void write_mesh(const Mesh& mesh, const std::filesystem::path& path);

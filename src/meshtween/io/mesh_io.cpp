@@ -1,0 +1,102 @@
+#include "meshtween/io/mesh_io.h"
+
+#include "meshtween/core/error.h"
+#include "meshtween/io/formats.h"
+#include "meshtween/io/output.h"
+#include "meshtween/io/text.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
+
+namespace meshtween {
+namespace {
+namespace fs = std::filesystem;
+
+struct Format {
+    std::string_view extension;
+    PolygonMesh (*read)(std::string_view, const fs::path&);
+    void (*write)(const Mesh&, std::ostream&);
+};
+
+constexpr std::array formats{
+    Format{".obj", read_obj, write_obj}, //
+};
+
+const Format& format_of(const fs::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const auto* found =
+        std::find_if(formats.begin(), formats.end(), [&](const Format& f) { return f.extension == extension; });
+    if (found != formats.end()) return *found;
+    throw Error(ErrorKind::argument, fmt::format("{}: {} is no mesh format known here; use one of {}", path.string(),
+                                                 extension.empty() ? "a name without an extension" : extension,
+                                                 fmt::join(mesh_extensions(), " ")));
+}
+
+PolygonMesh read_polygons(const fs::path& path) {
+    std::error_code ignored;
+    if (fs::is_directory(path, ignored)) read_whole(path); // which says so
+    const Format& format = format_of(path);
+    const std::string bytes = read_whole(path);
+    if (bytes.empty()) bad_file(path, "the file is empty; export the model again");
+    PolygonMesh polygons = format.read(bytes, path);
+    require_sound(polygons, path);
+    return polygons;
+}
+
+} // namespace
+
+Mesh read_mesh(const fs::path& path) {
+    PolygonMesh polygons = read_polygons(path);
+    const Triangles cut = cut_polygons(polygons);
+    return cut_mesh(std::move(polygons), cut);
+}
+
+std::vector<Mesh> read_meshes(const std::vector<fs::path>& paths) {
+    std::vector<Mesh> meshes;
+    std::vector<int> corners, ends;
+    Triangles first_cut;
+    for (const fs::path& path : paths) {
+        PolygonMesh polygons = read_polygons(path);
+        const bool alike = !meshes.empty() && polygons.corners == corners && polygons.ends == ends;
+        const Triangles cut = alike ? first_cut : cut_polygons(polygons);
+        if (meshes.empty()) {
+            corners = polygons.corners;
+            ends = polygons.ends;
+            first_cut = cut;
+        }
+        meshes.push_back(cut_mesh(std::move(polygons), cut));
+    }
+    return meshes;
+}
+
+void write_mesh(const Mesh& mesh, const fs::path& path) {
+    const Format& format = format_of(path);
+    write_whole(path, [&](std::ostream& stream) { format.write(mesh, stream); });
+}
+
+const std::vector<std::string>& mesh_extensions() {
+    static const std::vector<std::string> extensions = [] {
+        std::vector<std::string> names;
+        for (const Format& format : formats) names.emplace_back(format.extension);
+        return names;
+    }();
+    return extensions;
+}
+
+void normalise_colors(std::vector<float>& colors) {
+    const bool bytes = std::any_of(colors.begin(), colors.end(), [](float c) { return c > 2; });
+    for (std::size_t i = 0; i < colors.size(); ++i) {
+        float& color = colors[i];
+        if (bytes && (i % 4 != 3 || color > 1)) color /= 255; // an alpha that was not given is 1 already
+        color = color >= 0 ? std::min(color, 1.0F) : 0;       // and what is no number is 0
+    }
+}
+
+} // namespace meshtween

@@ -1,0 +1,138 @@
+// A text file as lines and words, with messages that name the line.
+#pragma once
+
+#include "meshtween/core/error.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+namespace meshtween {
+
+[[noreturn]] inline void bad_file(const std::filesystem::path& path, std::string_view what) {
+    throw Error(ErrorKind::file, fmt::format("{}: {}", path.string(), what));
+}
+
+// A word of the file as a message can show it: short, and without control characters.
+std::string shown(std::string_view word);
+
+// Reads all of `word` as a number; false where it is none. Too large becomes infinite, too small zero. Locale plays no
+// part.
+inline bool parse(std::string_view word, double& value) {
+    if (!word.empty() && word.front() == '+') word.remove_prefix(1);
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error == std::errc::result_out_of_range) value = std::strtod(std::string(word).c_str(), nullptr);
+    return error != std::errc::invalid_argument && end == word.data() + word.size();
+}
+
+inline bool parse(std::string_view word, long long& value) {
+    if (!word.empty() && word.front() == '+') word.remove_prefix(1);
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    return error == std::errc() && end == word.data() + word.size();
+}
+
+class Text {
+public:
+    // `first_line` is the number of the line that `bytes` begins with.
+    Text(std::string_view bytes, const std::filesystem::path& path, long first_line = 1)
+        : next_(bytes.data()), end_(bytes.data() + bytes.size()), number_(first_line - 1), path_(path) {
+        if (bytes.substr(0, 3) == "\xEF\xBB\xBF") next_ += 3; // the mark that some editors put before UTF-8
+    }
+
+    // Goes to the next line; false at the end of the file.
+    bool next_line() {
+        if (next_ >= end_) return false;
+        const void* newline = std::memchr(next_, '\n', static_cast<std::size_t>(end_ - next_));
+        begin_ = word_ = next_;
+        line_end_ = newline != nullptr ? static_cast<const char*>(newline) : end_;
+        next_ = line_end_ + 1;
+        ++number_;
+        return true;
+    }
+
+    // As next_line, but a line that ends in a backslash goes on in the next.
+    bool next_joined_line() {
+        if (!next_line()) return false;
+        while (ends_in_backslash() && next_ < end_) {
+            const char* begin = begin_;
+            next_line();
+            begin_ = word_ = begin;
+        }
+        return true;
+    }
+
+    // The next word of the line; empty at its end.
+    std::string_view word() {
+        while (word_ < line_end_ && is_space(*word_)) ++word_;
+        const char* begin = word_;
+        while (word_ < line_end_ && !is_space(*word_)) ++word_;
+        return {begin, static_cast<std::size_t>(word_ - begin)};
+    }
+
+    // The next word of the file, over the ends of lines; empty at the end of the file.
+    std::string_view word_anywhere() {
+        while (true) {
+            if (const std::string_view found = word(); !found.empty()) return found;
+            if (!next_line()) return {};
+        }
+    }
+
+    // The next word of the line as a finite number. `what` names it in messages: "x".
+    double finite(std::string_view what) { return finite_from(word(), what); }
+
+    double finite_from(std::string_view found, std::string_view what) const {
+        double value = 0;
+        if (!parse(found, value)) missing(found, what);
+        if (!std::isfinite(value))
+            fail(fmt::format("{} is {}, which is not a finite number; mend the coordinates or export the model again",
+                             what, shown(found)));
+        return value;
+    }
+
+    long long integer(std::string_view what) { return integer_from(word(), what); }
+
+    long long integer_from(std::string_view found, std::string_view what) const {
+        long long value = 0;
+        if (!parse(found, value)) missing(found, what);
+        return value;
+    }
+
+    std::string_view line() const { return {begin_, static_cast<std::size_t>(line_end_ - begin_)}; }
+    long line_number() const { return number_; }
+    const char* position() const { return next_ < end_ ? next_ : end_; } // where the next line begins
+    const std::filesystem::path& path() const { return path_; }
+
+    [[noreturn]] void fail(std::string_view what) const { fail_at(number_, what); }
+    [[noreturn]] void fail_at(long number, std::string_view what) const {
+        bad_file(path_, fmt::format("line {}: {}", number, what));
+    }
+
+private:
+    // Joined lines keep their backslash and newline inside; no number holds one.
+    static bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\\'; }
+
+    bool ends_in_backslash() const {
+        const char* last = line_end_;
+        if (last > begin_ && last[-1] == '\r') --last;
+        return last > begin_ && last[-1] == '\\';
+    }
+
+    [[noreturn]] void missing(std::string_view found, std::string_view what) const {
+        if (found.empty())
+            fail(fmt::format("{} is missing; the file is truncated or damaged, export the model again", what));
+        fail(fmt::format("{} should be a number, not '{}'", what, shown(found)));
+    }
+
+    const char *next_, *end_;
+    const char *begin_ = nullptr, *word_ = nullptr, *line_end_ = nullptr;
+    long number_;
+    std::filesystem::path path_;
+};
+
+} // namespace meshtween
