@@ -3,9 +3,9 @@
 
 #include "meshtween/core/mesh.h"
 #include "meshtween/core/progress.h"
+#include "meshtween/solve/gauss_seidel.h"
 
 #include <functional>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -13,9 +13,9 @@ namespace meshtween {
 
 enum class MorphMethod {
     linear,          // vertices on straight lines
-    laplacian,       // Laplacian coordinates blended, Eq. 8 (Alexa 2003)
-    dual,            // Eq. 9-12 with rigid motion taken out, both shapes centred and the ends pinned
-    dual_as_printed, // Eq. 9-12 to the letter
+    laplacian,       // the coordinates of Eq. 8 blended by Eq. 9 (Alexa 2003), one vertex a component held
+    dual,            // Eq. 9-12 with rigid motion taken out, both shapes centred and the ends exact
+    dual_as_printed, // Eq. 9-12 to the letter: depends on where the origin is
 };
 
 // The methods' names on the command line: "linear", "laplacian", "dual", "dual-as-printed".
@@ -25,23 +25,17 @@ const std::vector<MorphMethod>& morph_methods();
 
 struct MorphOptions {
     MorphMethod method = MorphMethod::dual;
-    double c1 = 1.01; // C1 and C2 of Eq. 12: c1 > 1 > c2 > 0 converge faster the further apart they are
+    double c1 = 1.01; // C1 and C2 of Eq. 12: c1 > c2 > 0 converge faster the further apart they are
     double c2 = 0.99;
     double tolerance = 1e-7; // of the Gauss-Seidel solve: largest move of a sweep, parts of the diagonal
     int max_sweeps = 5000;
 };
 
-// What a solve took, for the report.
-struct SolveReport {
-    int sweeps = 0;
-    double residual = 0; // relative: |A V - D| / |D|
-    bool converged = true;
-};
-
-// A path of shapes: at(0) is `from`, at(1) is `to`, to rounding. Safe to ask from several threads.
+// A path of shapes: at(0) is `from`, at(1) is `to`, to rounding; dual_as_printed only to its solve's tolerance. Safe to
+// ask from several threads.
 struct Morph {
     std::function<Points(double u)> at;  // u in 0..1
-    std::function<SolveReport()> report; // of the most laborious solve so far; empty for methods without a solve
+    std::function<SolveReport()> report; // of the most laborious solve so far; no sweeps for methods without a solve
 };
 
 // Throws Error(argument) where `to` has another number of vertices or options are out of range.

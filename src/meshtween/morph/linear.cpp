@@ -1,0 +1,9 @@
+#include "meshtween/morph/methods.h"
+
+namespace meshtween {
+
+Morph linear_morph(const Points& from, const Points& to) {
+    return {[from, to](double u) -> Points { return (1 - u) * from + u * to; }, [] { return SolveReport{}; }};
+}
+
+} // namespace meshtween

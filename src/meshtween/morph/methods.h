@@ -1,0 +1,13 @@
+// The methods behind morph(), each in its own file. They expect checked input. Not for callers outside this folder.
+#pragma once
+
+#include "meshtween/morph/morph.h"
+
+namespace meshtween {
+
+Morph linear_morph(const Points& from, const Points& to);
+Morph laplacian_morph(const Mesh& from, const Points& to);
+Morph dual_morph(const Mesh& from, const Points& to, const MorphOptions& options, const Progress& progress);
+Morph dual_as_printed_morph(const Mesh& from, const Points& to, const MorphOptions& options);
+
+} // namespace meshtween

@@ -1,0 +1,81 @@
+#include "meshtween/morph/morph.h"
+
+#include "meshtween/core/error.h"
+#include "meshtween/morph/methods.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+
+namespace meshtween {
+namespace {
+
+struct Named {
+    MorphMethod method;
+    std::string_view name;
+};
+constexpr std::array named{Named{MorphMethod::linear, "linear"}, Named{MorphMethod::laplacian, "laplacian"},
+                           Named{MorphMethod::dual, "dual"}, Named{MorphMethod::dual_as_printed, "dual-as-printed"}};
+
+void require_sound(const Mesh& from, const Points& to, const MorphOptions& options) {
+    if (from.positions.rows() != to.rows())
+        throw Error(ErrorKind::argument,
+                    fmt::format("the shapes have {} and {} vertices; a morph needs one mesh in two shapes: fit first",
+                                from.positions.rows(), to.rows()));
+    if (!from.positions.allFinite() || !to.allFinite())
+        throw Error(ErrorKind::argument, "a vertex is not finite; `check` names it");
+    const Eigen::Index n = from.positions.rows();
+    for (Eigen::Index t = 0; t < from.triangles.rows(); ++t)
+        if (from.triangles.row(t).minCoeff() < 0 || from.triangles.row(t).maxCoeff() >= n)
+            throw Error(ErrorKind::argument, fmt::format("triangle {} names a vertex outside 0..{}", t, n - 1));
+    if (!(options.c1 > options.c2 && options.c2 > 0))
+        throw Error(ErrorKind::argument,
+                    fmt::format("C1 = {} and C2 = {}: Eq. 12 needs C1 > C2 > 0", options.c1, options.c2));
+    if (!(options.tolerance > 0) || options.max_sweeps < 1)
+        throw Error(ErrorKind::argument, "the solve needs a tolerance above 0 and at least one sweep");
+}
+
+} // namespace
+
+MorphMethod morph_method(std::string_view name) {
+    std::vector<std::string_view> names;
+    for (const Named& n : named) {
+        if (n.name == name) return n.method;
+        names.push_back(n.name);
+    }
+    throw Error(ErrorKind::argument,
+                fmt::format("no method is called \"{}\"; there are {}", name, fmt::join(names, ", ")));
+}
+
+std::string_view name_of(MorphMethod method) {
+    for (const Named& n : named)
+        if (n.method == method) return n.name;
+    return "";
+}
+
+const std::vector<MorphMethod>& morph_methods() {
+    static const std::vector<MorphMethod> all = [] {
+        std::vector<MorphMethod> methods;
+        for (const Named& n : named) methods.push_back(n.method);
+        return methods;
+    }();
+    return all;
+}
+
+Morph morph(const Mesh& from, const Points& to, const MorphOptions& options, const Progress& progress) {
+    require_sound(from, to, options);
+    switch (options.method) {
+    case MorphMethod::linear:
+        return linear_morph(from.positions, to);
+    case MorphMethod::laplacian:
+        return laplacian_morph(from, to);
+    case MorphMethod::dual:
+        return dual_morph(from, to, options, progress);
+    case MorphMethod::dual_as_printed:
+        return dual_as_printed_morph(from, to, options);
+    }
+    throw Error(ErrorKind::argument, "no such method");
+}
+
+} // namespace meshtween
