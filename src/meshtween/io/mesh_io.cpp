@@ -24,7 +24,10 @@ struct Format {
 };
 
 constexpr std::array formats{
-    Format{".obj", read_obj, write_obj}, //
+    Format{".obj", read_obj, write_obj},
+    Format{".ply", read_ply, write_ply},
+    Format{".stl", read_stl, write_stl},
+    Format{".off", read_off, write_off},
 };
 
 const Format& format_of(const fs::path& path) {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
+#include <utility>
 
 namespace meshtween {
 namespace {
@@ -110,6 +110,29 @@ std::vector<int> distinct_corners(const PolygonMesh& mesh, int begin, int end) {
 }
 
 } // namespace
+
+void share_texcoords(PolygonMesh& polygons, const std::vector<float>& wedges) {
+    constexpr int most_compared = 64; // more than any real vertex has: a file made to take long does not
+    const std::size_t vertices = polygons.coordinates.size() / 3;
+    std::vector<int> last(vertices, -1), before; // a vertex's last texture coordinate, and the one before each
+    for (std::size_t c = 0; c < polygons.corners.size(); ++c) {
+        const auto vertex = static_cast<std::size_t>(polygons.corners[c]);
+        if (vertex >= vertices) return; // require_sound will say so
+        const float u = wedges[2 * c], v = wedges[2 * c + 1];
+        int found = last[vertex];
+        for (int tries = 0; found >= 0; ++tries) {
+            const auto i = static_cast<std::size_t>(found);
+            if (polygons.texcoords[2 * i] == u && polygons.texcoords[2 * i + 1] == v) break;
+            found = tries < most_compared ? before[i] : -1;
+        }
+        if (found < 0) {
+            found = static_cast<int>(before.size());
+            before.push_back(std::exchange(last[vertex], found));
+            polygons.texcoords.insert(polygons.texcoords.end(), {u, v});
+        }
+        polygons.texcoord_corners.push_back(found);
+    }
+}
 
 Triangles cut_polygons(const PolygonMesh& polygons) {
     std::vector<int> cut;

@@ -23,6 +23,10 @@ struct PolygonMesh {
     }
 };
 
+// Takes u v a corner as the mesh's texture coordinates, those of one vertex that are equal only once, in order of first
+// appearance.
+void share_texcoords(PolygonMesh& polygons, const std::vector<float>& wedges);
+
 // m x 3: the triangles as indices into `corners`. A polygon whose fan from its first corner turns no triangle over is
 // cut so, whatever its shape, which cuts a model alike in most poses; the others are cut by clipping ears. Corners that
 // repeat the one before are passed over in polygons of more than three.

@@ -75,6 +75,14 @@ public:
         return {begin, static_cast<std::size_t>(word_ - begin)};
     }
 
+    // The next word of the line, which stays the next.
+    std::string_view peek() {
+        const char* here = word_;
+        const std::string_view found = word();
+        word_ = here;
+        return found;
+    }
+
     // The next word of the file, over the ends of lines; empty at the end of the file.
     std::string_view word_anywhere() {
         while (true) {
