@@ -2,6 +2,7 @@
 
 #include "meshtween/core/error.h"
 #include "meshtween/io/formats.h"
+#include "meshtween/io/gltf_write.h"
 #include "meshtween/io/output.h"
 #include "meshtween/io/text.h"
 
@@ -23,11 +24,13 @@ struct Format {
     void (*write)(const Mesh&, std::ostream&);
 };
 
+void write_glb(const Mesh& mesh, std::ostream& stream) {
+    stream << mesh_glb(mesh);
+}
+
 constexpr std::array formats{
-    Format{".obj", read_obj, write_obj},
-    Format{".ply", read_ply, write_ply},
-    Format{".stl", read_stl, write_stl},
-    Format{".off", read_off, write_off},
+    Format{".obj", read_obj, write_obj}, Format{".ply", read_ply, write_ply},  Format{".stl", read_stl, write_stl},
+    Format{".off", read_off, write_off}, Format{".glb", read_gltf, write_glb}, Format{".gltf", read_gltf, nullptr},
 };
 
 const Format& format_of(const fs::path& path) {
@@ -81,6 +84,9 @@ std::vector<Mesh> read_meshes(const std::vector<fs::path>& paths) {
 
 void write_mesh(const Mesh& mesh, const fs::path& path) {
     const Format& format = format_of(path);
+    if (format.write == nullptr)
+        throw Error(ErrorKind::argument,
+                    fmt::format("{}: {} is read but not written; write .glb", path.string(), format.extension));
     write_whole(path, [&](std::ostream& stream) { format.write(mesh, stream); });
 }
 

@@ -19,8 +19,9 @@ Mesh read_mesh(const std::filesystem::path& path);
 // triangles as the first is, so that a mesh of quads in two poses stays one mesh. Throws as read_mesh.
 std::vector<Mesh> read_meshes(const std::vector<std::filesystem::path>& paths);
 
-// Writes beside `path`, then renames: a failure leaves nothing half-written. Doubles in text keep all their digits.
-// Throws Error(argument) for an unknown extension, Error(file) where writing fails.
+// Writes beside `path`, then renames: a failure leaves nothing half-written. Doubles in text keep all their digits; STL
+// and GLB hold floats. UVs go to .obj .ply .glb, colours to .obj .ply .off .glb. Throws Error(argument) for an unknown
+// extension (and .gltf, which is only read), Error(file) where writing fails.
 void write_mesh(const Mesh& mesh, const std::filesystem::path& path);
 
 // The extensions that read_mesh and write_mesh know, with the dot, in lower case.
