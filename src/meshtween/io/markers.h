@@ -1,4 +1,5 @@
-// Pairs of corresponding points from files: our CSV, MeshLab .pp, Slicer .fcsv and .mrk.json, Wrap .json, index lists.
+// Pairs of corresponding points from files: our CSV, MeshLab .pp, Slicer .fcsv and .mrk.json, Wrap .json, IDAV .pts,
+// bare x,y,z and index lists.
 #pragma once
 
 #include "meshtween/core/mesh.h"
@@ -21,14 +22,20 @@ struct MarkerPairs {
 };
 
 // One file for both sides. Names pairs by the file's names, else by their number from 1. Index and barycentric formats
-// are resolved on the meshes. Pairs with a missing side are left out and told in the notes. Throws Error(file) naming
-// file and line.
+// are resolved on the meshes, counted from 0. Pairs with a missing side, and pairs that say the same as another, are
+// left out and told in the notes; so are markers that lie off their mesh, with the likely cause. Throws Error(file)
+// naming file and line: a name that comes twice, an index out of range, two pairs that contradict each other. How many
+// markers are enough is for the fit to say.
 MarkerPairs read_marker_pairs(const std::filesystem::path& path, const Mesh& source, const Mesh& target);
 
 // One file a side, matched by name (by order where neither has names; then their numbers must agree).
 MarkerPairs read_marker_pairs(const std::filesystem::path& source_path, const std::filesystem::path& target_path,
                               const Mesh& source, const Mesh& target);
 
-void write_marker_pairs(const std::vector<MarkerPair>& pairs, const std::filesystem::path& path);
+void write_marker_pairs(const std::vector<MarkerPair>& pairs, const std::filesystem::path& path); // our CSV
+
+// Rows x,y,z under an optional header, n x 3: a known correspondence, a row a vertex.
+Points read_points(const std::filesystem::path& path);
+void write_points(const Points& points, const std::filesystem::path& path);
 
 } // namespace meshtween

@@ -1,0 +1,166 @@
+#include "meshtween/io/marker_distance.h"
+
+#include "meshtween/core/parallel.h"
+#include "meshtween/geometry/measure.h"
+
+#include <Eigen/Geometry>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace meshtween {
+namespace {
+
+constexpr double far_away = 0.05; // of the diagonal
+
+// Christer Ericson, Real-Time Collision Detection, 5.1.5.
+Point closest_on_triangle(const Point& p, const Point& a, const Point& b, const Point& c) {
+    const Point ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
+    const double d1 = ab.dot(ap), d2 = ac.dot(ap), d3 = ab.dot(bp), d4 = ac.dot(bp), d5 = ab.dot(cp), d6 = ac.dot(cp);
+    if (d1 <= 0 && d2 <= 0) return a;
+    if (d3 >= 0 && d4 <= d3) return b;
+    if (d6 >= 0 && d5 <= d6) return c;
+    const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
+    if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + d1 / (d1 - d3) * ab;
+    if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + d2 / (d2 - d6) * ac;
+    if (va <= 0 && d4 >= d3 && d5 >= d6) return b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b);
+    return a + (vb * ab + vc * ac) / (va + vb + vc);
+}
+
+// A mesh's surface by some of its triangles, spread over all of it. Enough to tell 5 % of the diagonal, and quick.
+class Surface {
+public:
+    explicit Surface(const Mesh& mesh) : mesh_(mesh), diagonal_(diagonal(mesh.positions)) {
+        constexpr Eigen::Index most = 20000;
+        const Eigen::Index count = mesh.triangles.rows();
+        auto step = static_cast<Eigen::Index>(0.618 * static_cast<double>(count)) + 1;
+        while (std::gcd(step, count) != 1) ++step; // so that all are met, neighbours long after each other
+        for (Eigen::Index i = 0; i < std::min(count, most); ++i)
+            triangles_.push_back(static_cast<Eigen::Index>(i * step % count));
+        low_ = mesh.positions.colwise().minCoeff();
+        high_ = mesh.positions.colwise().maxCoeff();
+    }
+
+    // Whether the point is within 5 % of the diagonal; most answers come after a few triangles.
+    bool is_near(const Point& point) const {
+        const double reach = far_away * diagonal_;
+        if (((point - high_).array() > reach).any() || ((low_ - point).array() > reach).any()) return false;
+        return std::any_of(triangles_.begin(), triangles_.end(),
+                           [&](Eigen::Index t) { return distance_to(t, point) <= reach; });
+    }
+
+    // Of the diagonal.
+    double distance(const Point& point) const {
+        double least = std::numeric_limits<double>::infinity();
+        for (const Eigen::Index t : triangles_) least = std::min(least, distance_to(t, point));
+        return least / diagonal_;
+    }
+
+private:
+    double distance_to(Eigen::Index t, const Point& point) const {
+        const auto corner = [&](int k) -> Point { return mesh_.positions.row(mesh_.triangles(t, k)); };
+        return (closest_on_triangle(point, corner(0), corner(1), corner(2)) - point).norm();
+    }
+
+    const Mesh& mesh_;
+    double diagonal_;
+    std::vector<Eigen::Index> triangles_;
+    Point low_, high_;
+};
+
+// The places that are near the surface.
+std::vector<char> near_flags(const Points& places, const Surface& surface) {
+    std::vector<char> flags(static_cast<std::size_t>(places.rows()));
+    parallel_for(
+        places.rows(),
+        [&](Eigen::Index i) { flags[static_cast<std::size_t>(i)] = surface.is_near(places.row(i)) ? 1 : 0; }, 16);
+    return flags;
+}
+
+bool nearly_all(const std::vector<char>& flags) {
+    return static_cast<double>(std::count(flags.begin(), flags.end(), 1)) >= 0.9 * static_cast<double>(flags.size());
+}
+
+struct Cause {
+    Eigen::Matrix3d undo; // applied to a column
+    std::string remedy;
+};
+
+// What goes wrong most often between programs: signs, axes and units, alone and together.
+std::vector<Cause> causes() {
+    const struct {
+        std::array<int, 9> matrix;
+        const char* remedy;
+    } axes[] = {
+        {{1, 0, 0, 0, 1, 0, 0, 0, 1}, ""},
+        {{-1, 0, 0, 0, -1, 0, 0, 0, 1},
+         "negate x and y (the markers are in LPS and the model in RAS coordinates, or the other way round)"},
+        {{1, 0, 0, 0, 0, 1, 0, -1, 0}, "replace y by z and z by -y (the file has z upwards, the model y)"},
+        {{1, 0, 0, 0, 0, -1, 0, 1, 0}, "replace y by -z and z by y (the file has y upwards, the model z)"},
+        {{1, 0, 0, 0, 0, 1, 0, 1, 0}, "exchange y and z"},
+        {{-1, 0, 0, 0, 1, 0, 0, 0, 1}, "negate x (the model is mirrored)"},
+    };
+    std::vector<Cause> result;
+    for (const double scale : {1.0, 1000.0, 0.001, 100.0, 0.01, 10.0, 0.1, 25.4, 1 / 25.4})
+        for (const auto& axis : axes) {
+            Cause cause;
+            for (int i = 0; i < 9; ++i) cause.undo(i / 3, i % 3) = scale * axis.matrix[static_cast<std::size_t>(i)];
+            cause.remedy = axis.remedy;
+            if (scale != 1)
+                cause.remedy += fmt::format("{}multiply all by {:.4g} (another unit of length)",
+                                            cause.remedy.empty() ? "" : " and ", scale);
+            if (!cause.remedy.empty()) result.push_back(std::move(cause));
+        }
+    return result;
+}
+
+std::string likely_remedy(const Points& places, const Surface& own, const Surface& other, const char* other_name) {
+    constexpr Eigen::Index most = 64;
+    const Points some = places.topRows(std::min(places.rows(), most));
+    if (nearly_all(near_flags(some, other)))
+        return fmt::format("they lie on the {}, so the two sides seem to be exchanged", other_name);
+    for (const Cause& cause : causes())
+        if (nearly_all(near_flags(some * cause.undo.transpose(), own)))
+            return fmt::format("they would lie on it if one would {}; do that to the file", cause.remedy);
+    return "see whether they belong to this model, in this place";
+}
+
+void note_side(const std::vector<MarkerPair>& pairs, Point MarkerPair::*side, const char* name, const Surface& own,
+               const Surface& other, const char* other_name, std::vector<std::string>& notes) {
+    Points places(static_cast<Eigen::Index>(pairs.size()), 3);
+    for (std::size_t i = 0; i < pairs.size(); ++i) places.row(static_cast<Eigen::Index>(i)) = pairs[i].*side;
+    const std::vector<char> near = near_flags(places, own);
+    std::vector<std::string> names;
+    double farthest = 0;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        if (near[i] != 0) continue;
+        farthest = std::max(farthest, own.distance(places.row(static_cast<Eigen::Index>(i))));
+        if (names.size() < 5) names.push_back(pairs[i].name);
+    }
+    if (names.empty()) return;
+    const std::string remedy =
+        nearly_all(near) ? "see whether they are where they should be" : likely_remedy(places, own, other, other_name);
+    const auto far_count = std::count(near.begin(), near.end(), 0);
+    notes.push_back(
+        fmt::format("{} of {} markers lie further from the {} than 5 % of its diagonal, up to {:.3g} % ({}{}): {}",
+                    far_count, pairs.size(), name, 100 * farthest, fmt::join(names, ", "),
+                    far_count > static_cast<std::ptrdiff_t>(names.size()) ? ", ..." : "", remedy));
+}
+
+} // namespace
+
+std::vector<std::string> distance_notes(const std::vector<MarkerPair>& pairs, const Mesh& source, const Mesh& target) {
+    std::vector<std::string> notes;
+    if (pairs.empty() || source.triangles.rows() == 0 || target.triangles.rows() == 0) return notes;
+    const Surface on_source(source), on_target(target);
+    note_side(pairs, &MarkerPair::source, "source", on_source, on_target, "target", notes);
+    note_side(pairs, &MarkerPair::target, "target", on_target, on_source, "source", notes);
+    return notes;
+}
+
+} // namespace meshtween

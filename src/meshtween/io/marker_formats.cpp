@@ -1,0 +1,192 @@
+// The landmark files of other programs: MeshLab's picked points, 3D Slicer's markups (fcsv, mrk.json), Wrap's points on
+// triangles, IDAV Landmark's pts.
+#include "meshtween/io/marker_files.h"
+#include "meshtween/io/output.h"
+#include "meshtween/io/text.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <pugixml.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace meshtween {
+namespace {
+
+using nlohmann::ordered_json; // keeps the file's order
+
+std::string lower_extension(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+[[noreturn]] void bad_entry(const std::filesystem::path& path, const std::string& where, std::string_view what) {
+    bad_file(path, fmt::format("{}: {}", where, what));
+}
+
+// [triangle, u, v]: the place A u + B v + C (1 - u - v).
+MarkerPlace wrap_place(const ordered_json& entry, const std::filesystem::path& path, const std::string& where) {
+    if (!entry.is_array() || entry.size() != 3 || !entry[0].is_number_integer() || !entry[1].is_number() ||
+        !entry[2].is_number())
+        bad_entry(path, where, "should be [triangle, u, v]");
+    const double u = entry[1].get<double>(), v = entry[2].get<double>();
+    if (!(u >= -1e-6 && v >= -1e-6 && u + v <= 1 + 1e-6))
+        bad_entry(path, where, fmt::format("u = {} and v = {} lie outside the triangle", u, v));
+    const auto triangle = entry[0].get<long long>();
+    if (triangle < 0 || triangle > std::numeric_limits<int>::max())
+        bad_entry(path, where, fmt::format("{} is no triangle's number", triangle));
+    return SurfacePoint{static_cast<int>(triangle), {u, v, 1 - u - v}};
+}
+
+MarkerFile wrap_points(const ordered_json& root, const std::filesystem::path& path) {
+    MarkerFile file{{}, 1};
+    std::size_t number = 0;
+    for (const auto& [key, entry] : root.items()) {
+        const std::string where = root.is_object() ? fmt::format("'{}'", shown(key)) : fmt::format("entry {}", number);
+        ++number;
+        file.rows.push_back({root.is_object() ? key : std::string(), where, {wrap_place(entry, path, where)}});
+    }
+    return file;
+}
+
+MarkerPlace slicer_place(const ordered_json& point, const std::filesystem::path& path, const std::string& where) {
+    const auto status = point.find("positionStatus");
+    if (status != point.end() && *status != "defined") return {};
+    const auto position = point.find("position");
+    if (position == point.end() || position->is_null()) return {};
+    Point result;
+    if (!position->is_array() || position->size() != 3) bad_entry(path, where, "its position is not [x, y, z]");
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (!(*position)[k].is_number()) bad_entry(path, where, "its position is not [x, y, z]");
+        result[static_cast<Eigen::Index>(k)] = (*position)[k].get<double>();
+    }
+    return result;
+}
+
+MarkerFile slicer_markups(const ordered_json& root, const std::filesystem::path& path) {
+    MarkerFile file{{}, 1};
+    for (const ordered_json& markup : root["markups"]) {
+        const auto points = markup.find("controlPoints");
+        if (points == markup.end()) continue;
+        for (const ordered_json& point : *points) {
+            const std::string where = fmt::format("control point {}", file.rows.size());
+            if (!point.is_object()) bad_entry(path, where, "is no object");
+            const auto label = point.find("label");
+            file.rows.push_back({label != point.end() && label->is_string() ? label->get<std::string>() : std::string(),
+                                 where,
+                                 {slicer_place(point, path, where)}});
+        }
+    }
+    return file;
+}
+
+double coordinate(const pugi::xml_node& node, const char* name, const std::filesystem::path& path,
+                  const std::string& where) {
+    double value = 0;
+    if (!parse(node.attribute(name).value(), value) || !std::isfinite(value))
+        bad_entry(path, where,
+                  fmt::format("{} should be a number, not '{}'", name, shown(node.attribute(name).value())));
+    return value;
+}
+
+} // namespace
+
+MarkerFile read_picked_points(std::string_view bytes, const std::filesystem::path& path) {
+    pugi::xml_document document;
+    const pugi::xml_parse_result result = document.load_buffer(bytes.data(), bytes.size());
+    const pugi::xml_node list = document.child("PickedPoints");
+    if (!result || !list)
+        bad_file(path,
+                 fmt::format("is no whole list of picked points ({} at byte {}); it is truncated or of another format",
+                             result ? "no PickedPoints" : result.description(), result.offset));
+    MarkerFile file{{}, 1};
+    for (const pugi::xml_node& node : list.children("point")) {
+        const std::string where = fmt::format("point {}", file.rows.size());
+        MarkerRow row{node.attribute("name").value(), where, {MarkerPlace()}};
+        if (std::string_view(node.attribute("active").value()) != "0") // only this says that it was not picked
+            row.places[0] = Point(coordinate(node, "x", path, where), coordinate(node, "y", path, where),
+                                  coordinate(node, "z", path, where));
+        file.rows.push_back(std::move(row));
+    }
+    return file;
+}
+
+MarkerFile read_slicer_fcsv(std::string_view bytes, const std::filesystem::path& path) {
+    std::vector<std::string> columns{"id", "x", "y", "z", "ow", "ox", "oy", "oz", "vis", "sel", "lock", "label"};
+    const auto column = [&](std::string_view name) {
+        return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) - columns.begin());
+    };
+    MarkerFile file{{}, 1};
+    Text text(bytes, path);
+    while (text.next_line()) {
+        const std::string_view line = text.line();
+        constexpr std::string_view heading = "# columns =";
+        if (line.substr(0, heading.size()) == heading) columns = cells_of(line.substr(heading.size()));
+        if (line.find_first_not_of(" \t\r") == std::string_view::npos || line[0] == '#') continue;
+        const std::vector<std::string> cells = cells_of(line);
+        const auto cell = [&](std::string_view name) {
+            return column(name) < cells.size() ? cells[column(name)] : std::string();
+        };
+        Point point;
+        for (int k = 0; k < 3; ++k) {
+            const std::string name(1, "xyz"[k]);
+            point[k] = text.finite_from(cell(name), name);
+        }
+        file.rows.push_back({cell("label").empty() ? cell("id") : cell("label"),
+                             fmt::format("line {}", text.line_number()),
+                             {MarkerPlace(point)}});
+    }
+    return file;
+}
+
+MarkerFile read_marker_json(std::string_view bytes, const std::filesystem::path& path) {
+    ordered_json root;
+    try {
+        root = ordered_json::parse(bytes.begin(), bytes.end());
+    } catch (const ordered_json::exception& error) {
+        bad_file(path,
+                 fmt::format("its JSON cannot be read ({:.120}); it is truncated or of another format", error.what()));
+    }
+    if (!root.is_array() && !root.is_object())
+        bad_file(path, "holds neither Slicer's markups nor Wrap's points on triangles");
+    const bool slicer = root.is_object() && root.contains("markups") && root["markups"].is_array();
+    return slicer ? slicer_markups(root, path) : wrap_points(root, path);
+}
+
+// "Version 1.0", a count, and a row "S000 x y z" a point; 9999 three times is a missing one.
+MarkerFile read_landmark_pts(std::string_view bytes, const std::filesystem::path& path) {
+    Text text(bytes, path);
+    text.next_line();
+    text.next_line();
+    const long long count = text.integer("the number of landmarks");
+    MarkerFile file{{}, 1};
+    while (text.next_line()) {
+        const std::string name(text.word());
+        if (name.empty()) continue;
+        const double x = text.finite("x"), y = text.finite("y"), z = text.finite("z");
+        const bool missing = x == 9999 && y == 9999 && z == 9999;
+        file.rows.push_back({name,
+                             fmt::format("line {}", text.line_number()),
+                             {missing ? MarkerPlace() : MarkerPlace(Point(x, y, z))}});
+    }
+    if (count != static_cast<long long>(file.rows.size()))
+        bad_file(path, fmt::format("promises {} landmarks but holds {}; it is truncated or damaged", count,
+                                   file.rows.size()));
+    return file;
+}
+
+MarkerFile read_marker_file(const std::filesystem::path& path) {
+    const std::string bytes = read_whole(path), extension = lower_extension(path);
+    if (bytes.empty()) bad_file(path, "the file is empty; it should hold markers");
+    if (bytes.find('\0') != std::string::npos) bad_file(path, "is no text; it is damaged or of another format");
+    if (extension == ".pp") return read_picked_points(bytes, path);
+    if (extension == ".json") return read_marker_json(bytes, path);
+    if (extension == ".fcsv") return read_slicer_fcsv(bytes, path);
+    if (bytes.compare(0, 7, "Version") == 0) return read_landmark_pts(bytes, path);
+    return read_marker_table(bytes, path);
+}
+
+} // namespace meshtween
