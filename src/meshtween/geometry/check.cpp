@@ -1,0 +1,338 @@
+// Elements are named by their numbers, counted from 0, as everywhere in the library.
+#include "meshtween/geometry/check.h"
+
+#include "meshtween/geometry/measure.h"
+#include "meshtween/geometry/topology.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace meshtween {
+namespace {
+
+constexpr std::size_t named = 5; // elements of a kind that a sentence names
+
+std::string number_word(long count) {
+    static constexpr std::array words{"no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine"};
+    return count < std::ssize(words) ? words[static_cast<std::size_t>(count)] : std::to_string(count);
+}
+
+// "4", "4 and 9", "4, 9 and 17", or "4, 9, 17, 20, 31, ..." where there are more.
+template <typename Items>
+std::string listed(const Items& items, std::size_t count) {
+    std::string result;
+    std::size_t i = 0;
+    for (const auto& item : items) {
+        if (i > 0) result += i + 1 == count ? " and " : ", ";
+        result += fmt::format("{}", item);
+        if (++i == named) break;
+    }
+    return count > named ? result + ", ..." : result;
+}
+
+// Elements of one kind: all counted, the first few kept.
+template <typename Item>
+struct Found {
+    std::vector<Item> first;
+    long count = 0;
+    void add(Item item) {
+        if (first.size() < named) first.push_back(std::move(item));
+        ++count;
+    }
+    bool any() const { return count > 0; }
+    std::string list() const { return listed(first, static_cast<std::size_t>(count)); }
+    // "face 4 has", "faces 4 and 9 have"
+    std::string with(const char* one, const char* many, const char* verb_one, const char* verb_many) const {
+        if (count == 1) return fmt::format("{} {} {}", one, list(), verb_one);
+        const std::string total = count > static_cast<long>(named) ? fmt::format("{} {} ({})", count, many, list())
+                                                                   : fmt::format("{} {}", many, list());
+        return fmt::format("{} {}", total, verb_many);
+    }
+};
+
+class Checker {
+public:
+    explicit Checker(const Mesh& mesh) : mesh_(mesh), t_(mesh.triangles) {}
+
+    std::vector<Finding> run() {
+        if (t_.rows() == 0)
+            add(Severity::error, 0, fmt::format("there are no faces, only {} vertices", mesh_.positions.rows()));
+        const bool finite = check_coordinates(), in_range = check_indices();
+        if (t_.rows() == 0 || !in_range) return std::move(findings_);
+        top_ = topology(mesh_.positions.rows(), t_);
+        check_repeated_vertices();
+        if (finite) check_areas();
+        check_duplicate_faces();
+        check_unused_vertices();
+        if (finite) check_equal_places();
+        check_edges();
+        check_vertex_fans();
+        check_orientation();
+        check_components();
+        if (finite && closed_ && oriented_) check_inside_out();
+        if (manifold_) check_genus();
+        return std::move(findings_);
+    }
+
+private:
+    void add(Severity severity, long count, std::string what) {
+        findings_.push_back({severity, std::move(what), count});
+    }
+
+    bool degenerate(Eigen::Index t) const {
+        return t_(t, 0) == t_(t, 1) || t_(t, 1) == t_(t, 2) || t_(t, 2) == t_(t, 0);
+    }
+
+    bool check_coordinates() {
+        Found<Eigen::Index> bad;
+        for (Eigen::Index v = 0; v < mesh_.positions.rows(); ++v)
+            if (!mesh_.positions.row(v).allFinite()) bad.add(v);
+        if (bad.any())
+            add(Severity::error, bad.count,
+                bad.with("vertex", "vertices", "has a coordinate that is not a finite number",
+                         "have coordinates that are not finite numbers"));
+        return !bad.any();
+    }
+
+    bool check_indices() {
+        Found<Eigen::Index> bad;
+        for (Eigen::Index t = 0; t < t_.rows(); ++t)
+            if (t_.row(t).minCoeff() < 0 || t_.row(t).maxCoeff() >= mesh_.positions.rows()) bad.add(t);
+        if (bad.any())
+            add(Severity::error, bad.count,
+                bad.with("face", "faces", "names", "name") +
+                    fmt::format(" a vertex that does not exist: there are {}", mesh_.positions.rows()));
+        return !bad.any();
+    }
+
+    void check_repeated_vertices() {
+        Found<Eigen::Index> bad;
+        for (Eigen::Index t = 0; t < t_.rows(); ++t)
+            if (degenerate(t)) bad.add(t);
+        if (bad.any())
+            add(Severity::warning, bad.count,
+                bad.with("face", "faces", "names a vertex more than once", "name a vertex more than once"));
+    }
+
+    // Without area: its height is below 1e-10 of its longest edge.
+    void check_areas() {
+        Found<Eigen::Index> bad;
+        for (Eigen::Index t = 0; t < t_.rows(); ++t) {
+            if (degenerate(t)) continue;
+            double longest = 0;
+            for (int k = 0; k < 3; ++k)
+                longest = std::max(
+                    longest, (mesh_.positions.row(t_(t, k)) - mesh_.positions.row(t_(t, (k + 1) % 3))).squaredNorm());
+            if (double_area_normal(mesh_.positions, t_, t).norm() <= 1e-10 * longest) bad.add(t);
+        }
+        if (bad.any()) add(Severity::warning, bad.count, bad.with("face", "faces", "has no area", "have no area"));
+    }
+
+    void check_duplicate_faces() {
+        std::vector<std::pair<std::array<int, 3>, Eigen::Index>> faces;
+        for (Eigen::Index t = 0; t < t_.rows(); ++t) {
+            std::array<int, 3> key{t_(t, 0), t_(t, 1), t_(t, 2)};
+            std::sort(key.begin(), key.end());
+            faces.emplace_back(key, t);
+        }
+        std::sort(faces.begin(), faces.end());
+        Found<std::string> bad;
+        for (std::size_t i = 1, first = 0; i < faces.size(); ++i) {
+            if (faces[i].first != faces[first].first)
+                first = i;
+            else
+                bad.add(fmt::format("{} as {}", faces[i].second, faces[first].second));
+        }
+        if (bad.any())
+            add(Severity::warning, bad.count,
+                bad.count == 1 ? fmt::format("a face has the same vertices as another: {}", bad.list())
+                               : fmt::format("{} faces have the same vertices as others: {}", bad.count, bad.list()));
+    }
+
+    void check_unused_vertices() {
+        Found<Eigen::Index> bad;
+        for (Eigen::Index v = 0; v < mesh_.positions.rows(); ++v)
+            if (top_.vertex_triangles[v].empty()) bad.add(v);
+        unused_ = bad.count;
+        if (bad.any())
+            add(Severity::warning, bad.count,
+                bad.with("vertex", "vertices", "belongs to no face", "belong to no face"));
+    }
+
+    void check_equal_places() {
+        std::vector<Eigen::Index> order(static_cast<std::size_t>(mesh_.positions.rows()));
+        std::iota(order.begin(), order.end(), Eigen::Index{0});
+        const auto place = [&](Eigen::Index v) {
+            return std::tuple(mesh_.positions(v, 0), mesh_.positions(v, 1), mesh_.positions(v, 2));
+        };
+        std::sort(order.begin(), order.end(),
+                  [&](Eigen::Index a, Eigen::Index b) { return place(a) != place(b) ? place(a) < place(b) : a < b; });
+        Found<std::string> bad;
+        for (std::size_t i = 1, first = 0; i < order.size(); ++i) {
+            if (place(order[i]) != place(order[first]))
+                first = i;
+            else
+                bad.add(fmt::format("{} on {}", order[i], order[first]));
+        }
+        if (bad.any())
+            add(Severity::note, bad.count,
+                fmt::format("{} ({}); a seam? The surface is cut there: weld it if it should be whole",
+                            bad.count == 1 ? "a vertex lies exactly on another"
+                                           : fmt::format("{} vertices lie exactly on others", bad.count),
+                            bad.list()));
+    }
+
+    std::vector<int> triangles_on(const Edge& edge) const {
+        const auto a = top_.vertex_triangles[edge.vertices[0]], b = top_.vertex_triangles[edge.vertices[1]];
+        std::vector<int> result;
+        std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(result));
+        return result;
+    }
+
+    void check_edges() {
+        Found<const Edge*> bad;
+        for (const Edge& edge : top_.edges) {
+            closed_ = closed_ && edge.count != 1;
+            if (edge.count > 2) bad.add(&edge);
+        }
+        if (!bad.any()) return;
+        manifold_ = false;
+        const auto name = [](const Edge& edge) { return fmt::format("{}-{}", edge.vertices[0], edge.vertices[1]); };
+        const Edge& first = *bad.first[0];
+        std::string what = fmt::format("edge {} belongs to {} faces ({})", name(first), number_word(first.count),
+                                       listed(triangles_on(first), static_cast<std::size_t>(first.count)));
+        std::vector<std::string> others;
+        for (std::size_t i = 1; i < bad.first.size(); ++i) others.push_back(name(*bad.first[i]));
+        if (!others.empty())
+            what += fmt::format(", and {} more belong to more than two ({}{})", bad.count - 1, fmt::join(others, ", "),
+                                bad.count > static_cast<long>(named) ? ", ..." : "");
+        add(Severity::warning, bad.count, what);
+    }
+
+    // Around a vertex its triangles should hang together by their edges, as one fan.
+    bool is_one_fan(int v) const {
+        const auto around = top_.vertex_triangles[v];
+        std::vector<std::pair<int, int>> spokes; // the vertex at an edge's other end, and the triangle
+        for (int i = 0; i < static_cast<int>(around.size()); ++i)
+            for (int k = 0; k < 3; ++k)
+                if (const int w = t_(around[static_cast<std::size_t>(i)], k); w != v) spokes.emplace_back(w, i);
+        std::sort(spokes.begin(), spokes.end());
+        std::vector<int> parent(around.size());
+        std::iota(parent.begin(), parent.end(), 0);
+        const auto root = [&](int i) {
+            auto at = static_cast<std::size_t>(i);
+            while (parent[at] != static_cast<int>(at)) {
+                parent[at] = parent[static_cast<std::size_t>(parent[at])];
+                at = static_cast<std::size_t>(parent[at]);
+            }
+            return static_cast<int>(at);
+        };
+        auto parts = static_cast<std::ptrdiff_t>(around.size());
+        for (std::size_t s = 1; s < spokes.size(); ++s) {
+            if (spokes[s].first != spokes[s - 1].first) continue;
+            const int a = root(spokes[s].second), b = root(spokes[s - 1].second);
+            if (a == b) continue;
+            parent[static_cast<std::size_t>(a)] = b;
+            --parts;
+        }
+        return parts <= 1;
+    }
+
+    void check_vertex_fans() {
+        Found<int> bad;
+        for (int v = 0; v < mesh_.positions.rows(); ++v)
+            if (!is_one_fan(v)) bad.add(v);
+        if (!bad.any()) return;
+        manifold_ = false;
+        add(Severity::warning, bad.count,
+            bad.with("vertex", "vertices", "joins parts of the surface that share nothing else there",
+                     "join parts of the surface that share nothing else there"));
+    }
+
+    // Whether triangle t runs from a to b.
+    bool runs(int t, int a, int b) const {
+        for (int k = 0; k < 3; ++k)
+            if (t_(t, k) == a && t_(t, (k + 1) % 3) == b) return true;
+        return false;
+    }
+
+    void check_orientation() {
+        Found<std::string> bad;
+        for (const Edge& edge : top_.edges) {
+            if (edge.count != 2 || degenerate(edge.triangles[0]) || degenerate(edge.triangles[1])) continue;
+            const auto [a, b] = edge.vertices;
+            if (runs(edge.triangles[0], a, b) == runs(edge.triangles[1], a, b))
+                bad.add(fmt::format("{} and {} at edge {}-{}", edge.triangles[0], edge.triangles[1], a, b));
+        }
+        if (!bad.any()) return;
+        oriented_ = false;
+        add(Severity::warning, bad.count,
+            bad.count == 1 ? fmt::format("two neighbouring faces look to opposite sides: {}", bad.list())
+                           : fmt::format("{} pairs of neighbouring faces look to opposite sides: {}", bad.count,
+                                         fmt::join(bad.first, "; ")));
+    }
+
+    // Parts by their size; vertices of no face are no part.
+    void check_components() {
+        const std::vector<int> component = components(top_);
+        std::vector<long> sizes(component.empty() ? 0 : *std::max_element(component.begin(), component.end()) + 1, 0);
+        for (std::size_t v = 0; v < component.size(); ++v)
+            if (!top_.vertex_triangles[static_cast<std::ptrdiff_t>(v)].empty())
+                ++sizes[static_cast<std::size_t>(component[v])];
+        std::erase(sizes, 0);
+        std::sort(sizes.rbegin(), sizes.rend());
+        parts_ = std::ssize(sizes);
+        if (parts_ > 1)
+            add(Severity::note, parts_,
+                fmt::format("the surface has {} separate parts, of {} vertices", number_word(parts_),
+                            listed(sizes, sizes.size())));
+        if (closed_) return;
+        const auto loops = boundary_loops(t_, top_);
+        std::vector<std::size_t> lengths;
+        for (const auto& loop : loops) lengths.push_back(loop.size());
+        std::sort(lengths.rbegin(), lengths.rend());
+        loops_ = std::ssize(loops);
+        add(Severity::note, loops_,
+            loops_ == 1 ? fmt::format("the surface is open: a boundary of {} edges", lengths[0])
+                        : fmt::format("the surface is open: {} boundaries, of {} edges", number_word(loops_),
+                                      listed(lengths, lengths.size())));
+    }
+
+    void check_inside_out() {
+        if (volume(mesh_.positions, t_) < 0)
+            add(Severity::warning, 1, "the surface is inside out: its faces look inwards, turn them all over");
+    }
+
+    // Euler and Poincare: V - E + F + loops = 2 (parts - handles).
+    void check_genus() {
+        const long characteristic = static_cast<long>(mesh_.positions.rows()) - unused_ - std::ssize(top_.edges) +
+                                    static_cast<long>(t_.rows()) + loops_;
+        const long doubled = 2 * parts_ - characteristic;
+        if (oriented_ && doubled > 0 && doubled % 2 == 0)
+            add(Severity::note, doubled / 2,
+                fmt::format("the surface has {} handle{} (its genus)", number_word(doubled / 2),
+                            doubled == 2 ? "" : "s"));
+    }
+
+    const Mesh& mesh_;
+    const Triangles& t_;
+    Topology top_;
+    std::vector<Finding> findings_;
+    long unused_ = 0, parts_ = 0, loops_ = 0;
+    bool closed_ = true, oriented_ = true, manifold_ = true;
+};
+
+} // namespace
+
+std::vector<Finding> check(const Mesh& mesh) {
+    return Checker(mesh).run();
+}
+
+} // namespace meshtween
