@@ -144,9 +144,9 @@ private:
         const double length = numbers_.next(property.count_type);
         if (!(length >= 0) || length > static_cast<double>(numbers_.left()))
             numbers_.fail(element, number,
-                          fmt::format("a list of {} entries is longer than the rest of the file, which is truncated or "
+                          fmt::format("a list cannot have {} entries when {} bytes are left; the file is truncated or "
                                       "damaged",
-                                      length));
+                                      length, numbers_.left()));
         return static_cast<std::uint64_t>(length);
     }
 

@@ -1,0 +1,248 @@
+// Files that cannot be meshes: each gets a message with its name and the place of the fault, none a crash.
+#include "meshtween/io/mesh_io.h"
+#include "meshtween/io/output.h"
+
+#include "support/errors.h"
+#include "support/scratch.h"
+#include "support/shapes.h"
+
+#include <cstdint>
+#include <cstring>
+#include <random>
+
+namespace meshtween {
+namespace {
+
+using namespace std::string_literals;
+
+constexpr const char* ply_ascii =
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+    "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+
+std::string with(std::string text, const std::string& what, const std::string& by) {
+    return text.replace(text.find(what), what.size(), by);
+}
+
+std::string ply_binary(std::initializer_list<float> positions, std::initializer_list<std::int32_t> face) {
+    std::string bytes = with(ply_ascii, "ascii", "binary_little_endian");
+    for (const float value : positions) bytes.append(reinterpret_cast<const char*>(&value), 4);
+    bytes += static_cast<char>(face.size());
+    for (const std::int32_t value : face) bytes.append(reinterpret_cast<const char*>(&value), 4);
+    return bytes;
+}
+
+std::string stl_binary(std::uint32_t count, std::initializer_list<float> values) {
+    std::string bytes(80, ' ');
+    bytes.append(reinterpret_cast<const char*>(&count), 4);
+    for (const float value : values) bytes.append(reinterpret_cast<const char*>(&value), 4);
+    return bytes + "\0\0"s;
+}
+
+class BadFiles : public testing::Test {
+protected:
+    Scratch scratch;
+};
+
+TEST_F(BadFiles, EachIsToldWithItsPlace) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const std::string garbage = "\x8f\x02\x13\xff\xfe\x00\x11\x90\x7f\x45\x4c\x46\x0a\x02\x00\x00\x99"s;
+    const struct {
+        const char* name;
+        std::string contents;
+        const char* words;
+    } rows[] = {
+        // empty, garbage, another format
+        {"a.obj", "", "the file is empty"},
+        {"a.ply", "", "the file is empty"},
+        {"a.stl", "", "the file is empty"},
+        {"a.off", "", "the file is empty"},
+        {"a.glb", "", "the file is empty"},
+        {"a.obj", garbage, "line 1"},
+        {"a.ply", garbage, "line 1: a PLY file begins with 'ply'"},
+        {"a.stl", garbage, "too short for an STL file"},
+        {"a.stl", garbage + std::string(200, '\x7f'), "promises 2139062143 facets"},
+        {"a.off", garbage, "line 1: an OFF file begins with 'OFF'"},
+        {"a.glb", garbage, "JSON"},
+        {"a.obj", ply_ascii, "holds no vertices"},
+        {"a.ply", "v 0 0 0\n", "begins with 'ply'"},
+        {"a.obj", "just some words\n", "holds no vertices"},
+        {"a.off", "4OFF\n1 1 1\n", "three dimensions"},
+        {"a.off", "OFF BINARY\n\1\2\3", "binary OFF is not read"},
+        // no faces, no vertices
+        {"a.obj", "v 0 0 0\nv 1 0 0\n", "holds 2 vertices but no faces"},
+        {"a.off", "OFF\n1 0 0\n0 0 0\n", "holds 1 vertices but no faces"},
+        {"a.off", "OFF\n0 0 0\n", "holds no vertices"},
+        {"a.ply", with(with(ply_ascii, "face 1", "face 0"), "vertex 3", "vertex 1") + "0 0 0\n", "no faces"},
+        {"a.stl", "solid x\nendsolid x\n", "holds no vertices"},
+        {"a.stl", std::string(84, '\0'), "holds no vertices"},
+        {"a.ply",
+         with(ply_ascii, "element face 1\nproperty list uchar int vertex_indices", "element face 0") +
+             "0 0 0 1 0 0 0 1 0",
+         "no list 'vertex_indices'"},
+        {"a.ply", with(ply_ascii, "element face", "element tristrips") + "0 0 0 1 0 0 0 1 0\n3 0 1 2",
+         "triangle strips"},
+        // truncated
+        {"a.obj", "v 0 0 0\nv 1 0", "line 2: z is missing"},
+        {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2", "line 4: a face needs three corners, this has 2"},
+        {"a.ply", "ply\nformat ascii 1.0\nelement vertex 3\n", "the header has no end"},
+        {"a.ply", ply_ascii + "0 0 0 1 0 0 0 1 0 3 0"s, "the file ends too early"},
+        {"a.ply", ply_binary({0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 2}).substr(0, 200), "bytes, but only"},
+        {"a.ply", ply_ascii + "0 0 0 1 0 0 0 1"s, "bytes, but only"},
+        {"a.ply", with(ply_binary({0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 2}), "face 1", "face 2"),
+         "the file ends too early"},
+        {"a.stl", stl_binary(2, {0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0}), "promises 2 facets, which take 184 bytes"},
+        {"a.stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0", "line 5: z is missing"},
+        {"a.stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n", "'endsolid' is missing"},
+        {"a.stl", "solid x\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\nendfacet\nendsolid",
+         "has 2 corners"},
+        {"a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n", "ends before vertex 2 of 3"},
+        {"a.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "ends before face 1 of 2"},
+        {"a.off", "OFF\n", "the file ends too early"},
+        // counts that cannot be
+        {"a.ply", with(ply_ascii, "vertex 3", "vertex 1000000000") + "0 0 0\n",
+         "promises 1000000000 elements 'vertex'"},
+        {"a.ply", with(ply_binary({0, 0, 0}, {}), "vertex 3", "vertex 2000000000"), "2000000000"},
+        {"a.ply", with(ply_ascii, "vertex 3", "vertex 99999999999999999999") + "0", "should be a number"},
+        {"a.ply", with(ply_ascii, "vertex 3", "vertex 9999999999") + "0", "more than can be held"},
+        {"a.ply", with(ply_ascii, "face 1", "face -1") + "0", "line 7: -1 elements 'face'"},
+        {"a.off", "OFF\n1000000000 1 0\n0 0 0\n", "1000000000 vertices do not fit"},
+        {"a.off", "OFF\n3 1000000000 0\n0 0 0\n", "1000000000 faces do not fit"},
+        {"a.off", "OFF\n-3 1 0\n0 0 0\n", "-3 vertices"},
+        {"a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n1000000000 0 1 2\n", "line 6: a vertex's number is missing"},
+        {"a.stl", stl_binary(0xffffffff, {0, 0, 1}), "promises 4294967295 facets"},
+        {"a.ply", with(ply_ascii, "list uchar", "list uint") + "0 0 0 1 0 0 0 1 0\n4294967295 0 1 2\n",
+         "a list cannot have 4294967295 entries"},
+        {"a.ply", with(ply_ascii, "list uchar", "list char") + "0 0 0 1 0 0 0 1 0\n-1 0 1 2\n",
+         "line 11: a list cannot have -1 entries"},
+        // numbers that are none
+        {"a.obj", "v 0 0 0\nv 1 nan 0\n", "line 2: y is nan"},
+        {"a.obj", "v 0 0 0\nv 1 0 -inf\n", "line 2: z is -inf"},
+        {"a.obj", "v 0 0 0\nv 1e999 0 0\n", "line 2: x is 1e999"},
+        {"a.obj", "v 0 0 0\nv 1,5 0 0\n", "line 2: x should be a number, not '1,5'"},
+        {"a.obj", "v 0 0 0 1 2 x\n", "line 1: a colour should be a number"},
+        {"a.ply", ply_ascii + "0 0 0 1 nan 0 0 1 0\n3 0 1 2"s, "line 10: y is nan"},
+        {"a.ply", ply_ascii + "0 0 0 1 zero 0 0 1 0\n3 0 1 2"s, "line 10: 'zero' should be a number"},
+        {"a.ply", ply_binary({0, 0, 0, 1, 0, nan, 0, 1, 0}, {0, 1, 2}),
+         "element 'vertex' 1 (counted from 0): z is nan"},
+        {"a.stl", stl_binary(1, {0, 0, 1, 0, 0, 0, 1, nan, 0, 0, 1, 0}),
+         "facet 0 (counted from 0): a coordinate is nan"},
+        {"a.stl", "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 inf\n", "line 4: z is inf"},
+        {"a.off", "OFF\n3 1 0\n0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n", "line 4: y is nan"},
+        // indices
+        {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", "line 4: vertex 4 is out of range: the file holds 3"},
+        {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n", "line 4: vertex 0 does not exist: OBJ counts from 1"},
+        {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -1 -2 -4\n", "line 4: vertex -4 is out of range"},
+        {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99999999999\n", "line 4: vertex 99999999999 is out of range"},
+        {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3.5\n", "line 4: vertex should be a number, not '3.5'"},
+        {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/2\n", "line 5: texture coordinate 2 is out of range"},
+        {"a.ply", ply_ascii + "0 0 0 1 0 0 0 1 0\n3 0 1 3"s, "face 0 (counted from 0) names vertex 3, but there are 3"},
+        {"a.ply", ply_ascii + "0 0 0 1 0 0 0 1 0\n3 0 1 -1"s, "-1 is no vertex's number"},
+        {"a.ply", ply_ascii + "0 0 0 1 0 0 0 1 0\n2 0 1 2"s, "three corners, this has 2"},
+        {"a.ply", ply_binary({0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 7}), "names vertex 7"},
+        {"a.ply", ply_binary({0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, -7}), "-7 is no vertex's number"},
+        {"a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "line 6: vertex 3 is out of range"},
+        {"a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 -3\n", "line 6: vertex -3 is out of range"},
+        // headers
+        {"a.ply", with(ply_ascii, "ascii", "text"), "line 2: 'text' is no PLY format"},
+        {"a.ply", with(ply_ascii, "float x", "real x"), "line 4: 'real' is no PLY type"},
+        {"a.ply", with(ply_ascii, "list uchar", "list float"), "whole-number type"},
+        {"a.ply", with(ply_ascii, "format ascii 1.0\n", ""), "names no format"},
+        {"a.ply", with(ply_ascii, "element face", "element vertex"), "comes twice"},
+        {"a.ply", with(ply_ascii, "element vertex 3\n", ""), "before any element"},
+        {"a.ply", with(ply_ascii, "float z", "float w") + "0 0 0 1 0 0 0 1 0\n3 0 1 2", "have no x, y and z"},
+        {"a.ply", with(ply_ascii, "element face", "elephant face"), "'elephant' is no PLY header line"},
+    };
+    for (const auto& row : rows) {
+        const auto path = scratch.file(row.name, row.contents);
+        const std::string message = message_of(ErrorKind::file, [&] { read_mesh(path); });
+        EXPECT_NE(message.find(row.words), std::string::npos)
+            << row.name << " should say: " << row.words << "\nsays: " << message;
+        EXPECT_NE(message.find(path.string()), std::string::npos) << message;
+    }
+}
+
+TEST_F(BadFiles, NoFileAFolderAnUnknownFormat) {
+    EXPECT_NE(message_of(ErrorKind::file, [&] { read_mesh(scratch.path("none.obj")); }).find("no such file"),
+              std::string::npos);
+    std::filesystem::create_directory(scratch.path("folder.obj"));
+    EXPECT_NE(message_of(ErrorKind::file, [&] { read_mesh(scratch.path("folder.obj")); }).find("is a folder"),
+              std::string::npos);
+    EXPECT_NE(message_of(ErrorKind::file, [&] { read_mesh(scratch.folder()); }).find("is a folder"), std::string::npos);
+    for (const char* name : {"a.xyz", "a", ".obj"}) {
+        const std::string message = message_of(ErrorKind::argument, [&] { read_mesh(scratch.file(name, "x")); });
+        EXPECT_NE(message.find(".obj .ply .stl .off .glb .gltf"), std::string::npos) << message;
+        message_of(ErrorKind::argument, [&] { write_mesh(unit_cube(), scratch.path(name)); });
+    }
+    EXPECT_NE(message_of(ErrorKind::argument, [&] { write_mesh(unit_cube(), scratch.path("a.gltf")); }).find(".glb"),
+              std::string::npos);
+    EXPECT_NE(
+        message_of(ErrorKind::file, [&] { write_mesh(unit_cube(), scratch.path("none/a.obj")); }).find("no folder"),
+        std::string::npos);
+}
+
+// Flips, cuts and repeats bytes of sound files. A reader may take what is left for a mesh or refuse it; what it takes
+// must be sound. Run under the address sanitizer this says more.
+TEST_F(BadFiles, DamagedFilesNeverCrash) {
+    Mesh mesh = wavy_sheet(4, 5);
+    mesh.colors = Colors::Constant(mesh.positions.rows(), 4, 1);
+    mesh.texcoords = Texcoords::Constant(mesh.positions.rows() + 1, 2, 0.5F);
+    mesh.texcoord_triangles = mesh.triangles;
+    mesh.texcoords.row(mesh.positions.rows()) << 0, 1;
+    mesh.texcoord_triangles(1, 0) = static_cast<int>(mesh.positions.rows());
+    std::mt19937 random(7);
+    const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
+    int taken = 0, refused = 0;
+    for (const char* name : {"a.obj", "a.ply", "a.stl", "a.off", "a.glb"}) {
+        write_mesh(mesh, scratch.path(name));
+        const std::string whole = read_whole(scratch.path(name));
+        for (int round = 0; round < 400; ++round) {
+            std::string bytes = whole;
+            const std::size_t head = round % 2 == 0 ? std::min<std::size_t>(bytes.size(), 600) : bytes.size();
+            for (std::size_t k = 1 + below(4); k > 0; --k) {
+                const std::size_t at = below(head);
+                switch (below(5)) {
+                case 0:
+                    bytes[at % bytes.size()] = static_cast<char>(random());
+                    break;
+                case 1:
+                    bytes[at % bytes.size()] = "0123456789-/ \n"[below(14)];
+                    break;
+                case 2:
+                    bytes.erase(std::min(at, bytes.size()), below(9));
+                    break;
+                case 3:
+                    bytes.insert(std::min(at, bytes.size()), bytes.substr(below(bytes.size()), below(30)));
+                    break;
+                default:
+                    bytes.resize(std::max<std::size_t>(1, bytes.size() - below(40)));
+                    break;
+                }
+                if (bytes.empty()) bytes = " ";
+            }
+            try {
+                const Mesh back = read_mesh(scratch.file(name, bytes));
+                ++taken;
+                ASSERT_TRUE(back.positions.allFinite());
+                ASSERT_GT(back.triangles.rows(), 0);
+                ASSERT_GE(back.triangles.minCoeff(), 0);
+                ASSERT_LT(back.triangles.maxCoeff(), back.positions.rows());
+                if (back.texcoord_triangles.rows() > 0) {
+                    ASSERT_EQ(back.texcoord_triangles.rows(), back.triangles.rows());
+                    ASSERT_GE(back.texcoord_triangles.minCoeff(), 0);
+                    ASSERT_LT(back.texcoord_triangles.maxCoeff(), back.texcoords.rows());
+                    ASSERT_TRUE(back.texcoords.allFinite());
+                }
+                ASSERT_TRUE(back.colors.rows() == 0 || back.colors.rows() == back.positions.rows());
+                ASSERT_TRUE(back.colors.allFinite());
+            } catch (const Error& error) {
+                ++refused;
+                ASSERT_EQ(static_cast<int>(error.kind()), static_cast<int>(ErrorKind::file)) << error.what();
+            }
+        }
+    }
+    EXPECT_GT(taken, 100);
+    EXPECT_GT(refused, 100);
+}
+
+} // namespace
+} // namespace meshtween
