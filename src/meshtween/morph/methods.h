@@ -5,6 +5,7 @@
 
 namespace meshtween {
 
+Morph rigid_morph(const Mesh& from, const Points& to, const MorphOptions& options, const Progress& progress);
 Morph linear_morph(const Points& from, const Points& to);
 Morph laplacian_morph(const Mesh& from, const Points& to);
 Morph dual_morph(const Mesh& from, const Points& to, const MorphOptions& options, const Progress& progress);

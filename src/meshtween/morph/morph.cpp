@@ -15,8 +15,9 @@ struct Named {
     MorphMethod method;
     std::string_view name;
 };
-constexpr std::array named{Named{MorphMethod::linear, "linear"}, Named{MorphMethod::laplacian, "laplacian"},
-                           Named{MorphMethod::dual, "dual"}, Named{MorphMethod::dual_as_printed, "dual-as-printed"}};
+constexpr std::array named{Named{MorphMethod::rigid, "rigid"}, Named{MorphMethod::linear, "linear"},
+                           Named{MorphMethod::laplacian, "laplacian"}, Named{MorphMethod::dual, "dual"},
+                           Named{MorphMethod::dual_as_printed, "dual-as-printed"}};
 
 void require_sound(const Mesh& from, const Points& to, const MorphOptions& options) {
     if (from.positions.rows() != to.rows())
@@ -66,6 +67,8 @@ const std::vector<MorphMethod>& morph_methods() {
 Morph morph(const Mesh& from, const Points& to, const MorphOptions& options, const Progress& progress) {
     require_sound(from, to, options);
     switch (options.method) {
+    case MorphMethod::rigid:
+        return rigid_morph(from, to, options, progress);
     case MorphMethod::linear:
         return linear_morph(from.positions, to);
     case MorphMethod::laplacian:

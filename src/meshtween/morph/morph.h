@@ -12,23 +12,25 @@
 namespace meshtween {
 
 enum class MorphMethod {
+    rigid,           // every triangle turns and stretches by itself, put together by a Poisson system: keeps shapes
     linear,          // vertices on straight lines
     laplacian,       // the coordinates of Eq. 8 blended by Eq. 9 (Alexa 2003), one vertex a component held
     dual,            // Eq. 9-12 with rigid motion taken out, both shapes centred and the ends exact
     dual_as_printed, // Eq. 9-12 to the letter: depends on where the origin is
 };
 
-// The methods' names on the command line: "linear", "laplacian", "dual", "dual-as-printed".
+// The methods' names on the command line: "rigid", "linear", "laplacian", "dual", "dual-as-printed".
 MorphMethod morph_method(std::string_view name); // throws Error(argument) naming those that exist
 std::string_view name_of(MorphMethod method);
 const std::vector<MorphMethod>& morph_methods();
 
 struct MorphOptions {
-    MorphMethod method = MorphMethod::dual;
+    MorphMethod method = MorphMethod::rigid;
     double c1 = 1.01; // C1 and C2 of Eq. 12: c1 > c2 > 0 converge faster the further apart they are
     double c2 = 0.99;
     double tolerance = 1e-7; // of the Gauss-Seidel solve: largest move of a sweep, parts of the diagonal
     int max_sweeps = 5000;
+    int patches = 400; // of `rigid`: pieces whose rotations are interpolated against their neighbours'
 };
 
 // A path of shapes: at(0) is `from`, at(1) is `to`, to rounding; dual_as_printed only to its solve's tolerance. Safe to

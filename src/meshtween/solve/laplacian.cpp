@@ -61,7 +61,9 @@ Corners edge_lengths(const Points& positions, const Triangles& triangles) {
 Corners half_cotangents(const Corners& lengths, double mollify) {
     const Eigen::Index m = lengths.rows();
     if (m == 0) return lengths;
-    const double slack = mollify * lengths.sum() / static_cast<double>(3 * m);
+    const double mean = lengths.sum() / static_cast<double>(3 * m);
+    if (mean <= 0) return half_cotangents(Corners::Ones(m, 3), mollify);
+    const double slack = mollify * mean;
     double longer = 0; // what every length must grow by, so that a + b >= c + slack everywhere
     for (Eigen::Index t = 0; t < m; ++t)
         longer = std::max(longer, 2 * lengths.row(t).maxCoeff() - lengths.row(t).sum() + slack);

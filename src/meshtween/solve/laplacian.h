@@ -24,7 +24,8 @@ SparseMatrix graph_laplacian(const Lists& neighbours);
 // Half the cotangent of each triangle's angle opposite the edge from corner k to corner k + 1. m x 3, without unit.
 // Computed from edge lengths, which are first lengthened, all by the same amount, so that each triangle keeps its
 // inequality by `mollify` times the mean length (Sharp and Crane, A Laplacian for Nonmanifold Triangle Meshes, 2020):
-// finite for any triangle, and the quadratic form stays positive semidefinite.
+// finite for any triangle, and the quadratic form stays positive semidefinite. Lengths that are all nought count as
+// equal.
 Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>
 half_cotangents(const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>& lengths, double mollify = 1e-5);
 

@@ -1,0 +1,237 @@
+// As-rigid-as-possible paths in closed form: each triangle's edges are blended in a frame that turns with it, and the
+// positions follow from one Poisson system that is factorised once.
+//   Alexa, Cohen-Or and Levin, As-Rigid-as-Possible Shape Interpolation, 2000 (rotation and stretch apart)
+//   Sumner and Popovic, Deformation Transfer for Triangle Meshes, 2004, and Botsch, Sumner, Pauly and Gross,
+//   Deformation Transfer for Detail-Preserving Surface Editing, 2006 (the Poisson system)
+//   Baran et al. 2009 and Lipman et al. 2005 (rotations relative to neighbours; turns.cpp)
+// With R the rotation of a triangle and a, b an edge in both shapes, the edge at u is R(u) ((1 - u) a + u R^T b): its
+// stretch is blended linearly. The same shapes come from either end, and they are exact at both.
+#include "meshtween/core/parallel.h"
+#include "meshtween/geometry/measure.h"
+#include "meshtween/geometry/topology.h"
+#include "meshtween/morph/methods.h"
+#include "meshtween/morph/rigid_motion.h"
+#include "meshtween/morph/turns.h"
+#include "meshtween/solve/cholesky.h"
+#include "meshtween/solve/laplacian.h"
+
+#include <array>
+#include <cmath>
+#include <memory>
+
+namespace meshtween {
+namespace {
+
+using Corners = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+// Moves a component so that its patch lies against the host's patch as the path says.
+struct Hook {
+    Attachment patches;
+    int component = 0;
+    std::vector<int> host_triangles, own_triangles;
+    Eigen::Vector3d from, to; // from the host's centre to its own, in the host's frame
+};
+
+struct Prepared {
+    Points from, to;    // centred, the rigid motion taken out
+    Points first, last; // as they were given
+    Triangles triangles;
+    RigidMotion motion;
+    Turns turns;
+    Points back_01, back_12; // m x 3: edges of `to`, turned back by the triangle's rotation
+    Corners weights;         // half cotangents
+    Lists vertex_triangles;
+    std::vector<std::vector<int>> component_vertices;
+    std::vector<char> isolated; // vertices of no triangle, which move on straight lines
+    int root = 0;
+    std::vector<Hook> hooks;
+    SparseCholesky poisson;
+};
+
+// A third of the areas around each vertex, the mean of both shapes; all ones where there is no area.
+Eigen::VectorXd vertex_areas(const Points& from, const Points& to, const Triangles& triangles) {
+    Eigen::VectorXd area = Eigen::VectorXd::Zero(from.rows());
+    for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+        const double a = triangle_area(from, triangles, t) + triangle_area(to, triangles, t);
+        for (int k = 0; k < 3; ++k) area[triangles(t, k)] += a / 6;
+    }
+    return area.sum() > 0 ? area : Eigen::VectorXd::Ones(from.rows());
+}
+
+Point centre_of(const Points& p, const Triangles& triangles, const std::vector<int>& which) {
+    Point sum = Point::Zero();
+    for (const int t : which)
+        for (int k = 0; k < 3; ++k) sum += p.row(triangles(t, k)) / 3;
+    return sum / static_cast<double>(which.size());
+}
+
+std::vector<Hook> hooks(const Patches& patches, const std::vector<Attachment>& attached, const Quaternions& end,
+                        const Points& from, const Points& to, const Triangles& triangles) {
+    std::vector<std::vector<int>> members(patches.rotation.size());
+    if (!attached.empty())
+        for (std::size_t t = 0; t < patches.of_triangle.size(); ++t)
+            members[static_cast<std::size_t>(patches.of_triangle[t])].push_back(static_cast<int>(t));
+    std::vector<Hook> result;
+    for (const Attachment& a : attached) {
+        Hook hook;
+        hook.patches = a;
+        hook.component = patches.component[static_cast<std::size_t>(a.own)];
+        hook.host_triangles = members[static_cast<std::size_t>(a.host)];
+        hook.own_triangles = members[static_cast<std::size_t>(a.own)];
+        const auto offset = [&](const Points& p) -> Eigen::Vector3d {
+            return (centre_of(p, triangles, hook.own_triangles) - centre_of(p, triangles, hook.host_triangles))
+                .transpose();
+        };
+        hook.from = offset(from);
+        hook.to = end[static_cast<std::size_t>(a.host)].conjugate() * offset(to);
+        result.push_back(std::move(hook));
+    }
+    return result;
+}
+
+// A triangle's edges at u from corner k to k + 1, stretched but not turned yet.
+std::array<Eigen::Vector3d, 3> local_edges(const Prepared& s, int t, double u) {
+    const auto p = [&](int k) { return s.from.row(s.triangles(t, k)); };
+    std::array<Eigen::Vector3d, 3> edge;
+    edge[0] = ((1 - u) * (p(1) - p(0)) + u * s.back_01.row(t)).transpose();
+    edge[1] = ((1 - u) * (p(2) - p(1)) + u * s.back_12.row(t)).transpose();
+    edge[2] = -edge[0] - edge[1];
+    return edge;
+}
+
+// Where a triangle is stretched one way and squeezed the other, blending the stretch linearly makes it larger on the
+// way than its areas at both ends say, and a twisted bar fatter. The excess is u (1 - u) (1 - s)(s' - 1) with the
+// stretches s and s'. Scaled by this, part of it goes: with a share of 0 edges keep their lengths best, with 1 areas,
+// and in between volumes do (bars twisted by 180 and 270 degrees, to 0.3 %, where 0 gives 1.4 %).
+double area_correction(const Prepared& s, int t, double u) {
+    constexpr double share = 0.4;
+    const auto edge = local_edges(s, t, u);
+    const auto p = [&](int k) { return Point(s.from.row(s.triangles(t, k))); };
+    const double have = edge[0].cross(edge[1]).norm();
+    const double first = Point(p(1) - p(0)).cross(Point(p(2) - p(1))).norm();
+    const double last = Point(s.back_01.row(t)).cross(Point(s.back_12.row(t))).norm();
+    const double want = (1 - u) * first + u * last;
+    return have > want && want > 0.1 * have ? std::pow(want / have, share / 2) : 1;
+}
+
+// The right side: at each vertex the edges that its triangles want there, weighted.
+Points divergence(const Prepared& s, const Quaternions& rotation, double u) {
+    std::vector<double> scale(rotation.size());
+    parallel_for(s.triangles.rows(), [&](Eigen::Index t) {
+        scale[static_cast<std::size_t>(t)] = area_correction(s, static_cast<int>(t), u);
+    });
+    Points right(s.from.rows(), 3);
+    parallel_for(s.from.rows(), [&](Eigen::Index i) {
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        for (const int t : s.vertex_triangles[i]) {
+            const auto edge = local_edges(s, t, u);
+            const auto it = static_cast<std::size_t>(t);
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto corner = static_cast<Eigen::Index>(k), before = (corner + 2) % 3;
+                if (s.triangles(t, corner) != i) continue;
+                sum += scale[it] * (rotation[it] * Eigen::Vector3d(s.weights(t, before) * edge[(k + 2) % 3] -
+                                                                   s.weights(t, corner) * edge[k]));
+            }
+        }
+        right.row(i) = sum.transpose();
+    });
+    return right;
+}
+
+void shift(Points& p, const std::vector<int>& vertices, const Point& by) {
+    for (const int i : vertices) p.row(i) += by;
+}
+
+// Each component came out of the solve at some place of its own.
+Points put_together(const Prepared& s, Points p, const Quaternions& patches, double u) {
+    if (!s.component_vertices.empty()) {
+        const std::vector<int>& vertices = s.component_vertices[static_cast<std::size_t>(s.root)];
+        Point off = Point::Zero();
+        for (const int i : vertices) off += (1 - u) * s.from.row(i) + u * s.to.row(i) - p.row(i);
+        shift(p, vertices, off / static_cast<double>(vertices.size()));
+    }
+    for (const Hook& hook : s.hooks) {
+        const Eigen::Vector3d offset =
+            patches[static_cast<std::size_t>(hook.patches.host)] * Eigen::Vector3d((1 - u) * hook.from + u * hook.to);
+        const Point wanted = centre_of(p, s.triangles, hook.host_triangles) + offset.transpose();
+        shift(p, s.component_vertices[static_cast<std::size_t>(hook.component)],
+              wanted - centre_of(p, s.triangles, hook.own_triangles));
+    }
+    for (Eigen::Index i = 0; i < p.rows(); ++i)
+        if (s.isolated[static_cast<std::size_t>(i)]) p.row(i) = (1 - u) * s.from.row(i) + u * s.to.row(i);
+    return p;
+}
+
+Points shape_at(const Prepared& s, double u) {
+    if (u == 0) return s.first;
+    if (u == 1) return s.last;
+    const Quaternions patches = patch_rotations(s.turns, u);
+    const Points right = divergence(s, face_rotations(s.turns, patches, u), u);
+    return placed(s.motion, put_together(s, s.poisson.solve(right), patches, u), u);
+}
+
+// One vertex of each component holds it in place: a 1 on its diagonal.
+SparseMatrix held(SparseMatrix matrix, const std::vector<int>& component) {
+    int next = 0;
+    for (std::size_t i = 0; i < component.size(); ++i)
+        if (component[i] == next) {
+            matrix.coeffRef(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) += 1;
+            ++next;
+        }
+    return matrix;
+}
+
+} // namespace
+
+Morph rigid_morph(const Mesh& from, const Points& to, const MorphOptions& options, const Progress& progress) {
+    if (from.triangles.rows() == 0) return linear_morph(from.positions, to);
+    const Triangles& triangles = from.triangles;
+    const auto tell = [&](double fraction) { return keep_going(progress, fraction, "preparing the path"); };
+    tell(0);
+    const Topology top = topology(from.positions.rows(), triangles);
+    const RigidMotion motion = best_rigid_motion(from.positions, to, vertex_areas(from.positions, to, triangles));
+    Points a = centred_from(motion, from.positions), b = centred_to(motion, to);
+    const std::vector<int> component = components(top);
+    Corners weights = half_cotangents((edge_lengths(a, triangles) + edge_lengths(b, triangles)) / 2);
+    SparseCholesky poisson(held(cotangent_laplacian(a.rows(), triangles, weights), component));
+    tell(0.6);
+    const FaceField faces = face_field(a, b, triangles);
+    const Patches parts = patches(faces, triangles, top, options.patches);
+    const std::vector<Attachment> attached = attachments(parts);
+    auto s = std::make_shared<Prepared>(Prepared{std::move(a),
+                                                 std::move(b),
+                                                 from.positions,
+                                                 to,
+                                                 triangles,
+                                                 motion,
+                                                 turns(faces, parts, attached),
+                                                 {},
+                                                 {},
+                                                 std::move(weights),
+                                                 top.vertex_triangles,
+                                                 {},
+                                                 {},
+                                                 root_component(parts),
+                                                 {},
+                                                 std::move(poisson)});
+    const Quaternions patch_end = patch_rotations(s->turns, 1), end = face_rotations(s->turns, patch_end, 1);
+    s->back_01.resize(triangles.rows(), 3);
+    s->back_12.resize(triangles.rows(), 3);
+    parallel_for(triangles.rows(), [&](Eigen::Index t) {
+        const Eigen::Quaterniond back = end[static_cast<std::size_t>(t)].conjugate();
+        const auto p = [&](int k) { return s->to.row(triangles(t, k)); };
+        s->back_01.row(t) = (back * Eigen::Vector3d((p(1) - p(0)).transpose())).transpose();
+        s->back_12.row(t) = (back * Eigen::Vector3d((p(2) - p(1)).transpose())).transpose();
+    });
+    for (std::size_t i = 0; i < component.size(); ++i) {
+        const auto c = static_cast<std::size_t>(component[i]);
+        if (c >= s->component_vertices.size()) s->component_vertices.resize(c + 1);
+        s->component_vertices[c].push_back(static_cast<int>(i));
+        s->isolated.push_back(s->vertex_triangles[static_cast<std::ptrdiff_t>(i)].empty());
+    }
+    s->hooks = hooks(parts, attached, patch_end, s->from, s->to, triangles);
+    tell(1);
+    return {[s](double u) { return shape_at(*s, u); }, [] { return SolveReport{}; }};
+}
+
+} // namespace meshtween

@@ -1,0 +1,39 @@
+// How every triangle turns along the path: nothing at 0, its whole way at 1, however far that is.
+#pragma once
+
+#include "meshtween/morph/patches.h"
+
+namespace meshtween {
+
+// A triangle's rotation as seen from the nearest patches: the patch's own rotation times the exponential of u times a
+// rotation vector, blended by weights that fade smoothly from patch to patch.
+struct FaceTurn {
+    static constexpr std::size_t most = 4;
+    std::array<int, most> patch{0, 0, 0, 0};
+    std::array<float, most> weight{1, 0, 0, 0}; // beginning with the triangle's own patch
+    std::array<Eigen::Vector3f, most> rotation_vector;
+};
+
+struct PatchTurn {
+    int first = 0, second = 0;
+    Eigen::Vector3d rotation_vector; // of the second against the first, in the first shape's frame
+    double weight = 0;
+};
+
+struct Turns {
+    std::vector<FaceTurn> faces;
+    std::vector<PatchTurn> links;
+    int patch_count = 0;
+    int root = 0;                         // the patch that turns least
+    Eigen::Vector3d root_vector{0, 0, 0}; // its rotation vector
+};
+
+Turns turns(const FaceField& faces, const Patches& patches, const std::vector<Attachment>& attached);
+
+// The patches' rotations at u. N.
+Quaternions patch_rotations(const Turns& turns, double u);
+
+// The triangles' rotations at u, given those of the patches. m.
+Quaternions face_rotations(const Turns& turns, const Quaternions& patches, double u);
+
+} // namespace meshtween
