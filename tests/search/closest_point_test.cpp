@@ -2,7 +2,8 @@
 
 #include "meshtween/core/error.h"
 #include "meshtween/core/parallel.h"
-#include "meshtween/geometry/measure.h"
+#include "meshtween/geometry/shapes.h"
+#include "meshtween/search/wide_build.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -31,11 +32,31 @@ long double reference_distance(const Point& query, const Point& a0, const Point&
     return (p - a - vb / (va + vb + vc) * ab - vc / (va + vb + vc) * ac).norm();
 }
 
-double nearest_by_trying_all(const Points& positions, const Triangles& triangles, const Point& query) {
+// For slivers, on which the regions' divisions go wrong: the edges' distances, and the plane's where the foot is
+// inside.
+long double sliver_distance(const Point& query, const Point& a, const Point& b, const Point& c) {
+    using V = Eigen::Matrix<long double, 1, 3>;
+    const V corners[3] = {a.cast<long double>(), b.cast<long double>(), c.cast<long double>()};
+    const V p = query.cast<long double>(), n = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    long double best = std::numeric_limits<long double>::infinity();
+    bool inside = n.norm() > 0;
+    for (int k = 0; k < 3; ++k) {
+        const V from = corners[k], edge = corners[(k + 1) % 3] - from;
+        const long double length = edge.squaredNorm(),
+                          t = length > 0 ? std::clamp(edge.dot(p - from) / length, 0.0L, 1.0L) : 0;
+        best = std::min(best, (p - from - t * edge).norm());
+        inside = inside && edge.cross(p - from).dot(n) >= 0;
+    }
+    return inside ? std::min(best, std::abs(n.dot(p - corners[0])) / n.norm()) : best;
+}
+
+double nearest_by_trying_all(const Points& positions, const Triangles& triangles, const Point& query,
+                             long double (*distance)(const Point&, const Point&, const Point&,
+                                                     const Point&) = reference_distance) {
     long double best = std::numeric_limits<long double>::infinity();
     for (Eigen::Index t = 0; t < triangles.rows(); ++t)
-        best = std::min(best, reference_distance(query, positions.row(triangles(t, 0)), positions.row(triangles(t, 1)),
-                                                 positions.row(triangles(t, 2))));
+        best = std::min(best, distance(query, positions.row(triangles(t, 0)), positions.row(triangles(t, 1)),
+                                       positions.row(triangles(t, 2))));
     return static_cast<double>(best);
 }
 
@@ -135,7 +156,7 @@ TEST(ClosestPoint, WorksFarFromTheOriginAndFarFromTheSurface) {
         Mesh mesh = soup(300, 5);
         mesh.positions.rowwise() += Point(shift, -shift, 2 * shift);
         const ClosestPointIndex index(mesh);
-        for (const double away : {1.0, 1e3, 1e6, 1e12}) {
+        for (const double away : {1.0, 20.0, 1e3, 1e6, 1e12}) {
             Points queries = random_points(60, away, 23);
             queries.rowwise() += Point(shift, -shift, 2 * shift);
             for (Eigen::Index i = 0; i < queries.rows(); ++i) {
@@ -249,6 +270,98 @@ TEST(ClosestPoint, ARowOfQueriesIsEachQueryWithAnyNumberOfThreads) {
         expect_same_bits(one[i], index.closest(queries.row(static_cast<Eigen::Index>(i))));
         expect_same_bits(one[i], two[i]);
         expect_same_bits(one[i], hinted[i]);
+    }
+}
+
+// Slivers of every kind beside sound triangles: needles, caps (an angle near 180 degrees), nearly a point.
+Mesh slivers(Eigen::Index count, unsigned seed) {
+    Mesh mesh = soup(count, seed);
+    for (Eigen::Index t = 0; t < count; ++t) {
+        const double thin = std::pow(10.0, -static_cast<double>(t % 14));
+        const Point a = mesh.positions.row(3 * t), b = mesh.positions.row(3 * t + 1),
+                    off = mesh.positions.row(3 * t + 2) - a;
+        if (t % 3 == 0) mesh.positions.row(3 * t + 2) = a + thin * off;
+        if (t % 3 == 1) mesh.positions.row(3 * t + 2) = 0.3 * a + 0.7 * b + thin * off;
+        if (t % 3 == 2 && thin < 1e-3)
+            for (int k = 1; k < 3; ++k) mesh.positions.row(3 * t + k) = a + thin * (mesh.positions.row(3 * t + k) - a);
+    }
+    return mesh;
+}
+
+TEST(ClosestPoint, AgreesWithTryingAllSlivers) {
+    const Mesh mesh = slivers(600, 43);
+    const ClosestPointIndex index(mesh);
+    Points queries = random_points(300, 1.2, 47);
+    for (Eigen::Index i = 0; i < 100; ++i) // on the triangles, where a wrong decision costs most
+        queries.row(i) = position(mesh.positions, mesh.triangles, {static_cast<int>(5 * i), {0.2, 0.3, 0.5}});
+    for (Eigen::Index i = 0; i < queries.rows(); ++i) {
+        const ClosestPoint answer = index.closest(Point(queries.row(i)));
+        expect_consistent(mesh, queries.row(i), answer);
+        // Doubles lose the inside of a sliver whose height is a hundred-millionth of its length, and no more than that.
+        EXPECT_NEAR(std::sqrt(answer.squared_distance),
+                    nearest_by_trying_all(mesh.positions, mesh.triangles, queries.row(i), sliver_distance), 1e-8);
+    }
+}
+
+TEST(ClosestPoint, OfAllTrianglesOfASphereTheFirstAnswersItsCentre) {
+    // An octahedron, so that all distances are the same to the last bit, many times over.
+    Mesh mesh;
+    mesh.positions.resize(6, 3);
+    mesh.positions << 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1;
+    mesh.triangles.resize(800, 3);
+    for (int t = 0; t < 800; ++t) mesh.triangles.row(t) << (t & 1), 2 + (t >> 1 & 1), 4 + (t >> 2 & 1);
+    const ClosestPointIndex index(mesh);
+    for (int hint = -1; hint < 800; hint += 50) {
+        const ClosestPoint answer = index.closest({0, 0, 0}, hint);
+        EXPECT_EQ(answer.where.triangle, 0);
+        EXPECT_NEAR(answer.squared_distance, 1.0 / 3, 1e-15);
+    }
+}
+
+TEST(ClosestPoint, EveryWidthGivesTheSameBits) {
+    const Mesh sphere_mesh = sphere(4), sliver_mesh = slivers(900, 53);
+    const std::vector<search::NamedSearch> searches = search::searches();
+    for (const Mesh& mesh : {sphere_mesh, sliver_mesh}) {
+        const ClosestPointIndex index(mesh);
+        for (const double away : {0.9, 1.1, 3.0, 50.0}) {
+            const Points queries = random_points(500, away, 59);
+            for (Eigen::Index i = 0; i < queries.rows(); ++i) {
+                const Point query = queries.row(i);
+                const Compatible compatible{queries.row((i + 1) % queries.rows()).normalized(), 0.3};
+                const int hint = static_cast<int>(i * 31 % mesh.triangles.rows());
+                search::use_search(searches.front().search);
+                const ClosestPoint plain = index.closest(query), choosy = index.closest(query, compatible, 2 * away);
+                for (const auto& wider : searches) {
+                    search::use_search(wider.search);
+                    expect_same_bits(index.closest(query), plain);
+                    expect_same_bits(index.closest(query, hint), plain);
+                    expect_same_bits(index.closest(query, compatible, 2 * away, hint), choosy);
+                }
+                search::use_search(nullptr);
+            }
+        }
+    }
+}
+
+TEST(ClosestPoint, AWarmHintFindsWhatACleanSearchFinds) {
+    // As in a fit: the queries creep towards the surface, the last answer is the hint; also where sheets lie close.
+    Mesh mesh = sphere(5);
+    const Mesh once = mesh;
+    mesh.positions.resize(2 * once.positions.rows(), 3);
+    mesh.positions << once.positions, 0.97 * once.positions;
+    mesh.triangles.resize(2 * once.triangles.rows(), 3);
+    mesh.triangles << once.triangles, once.triangles.array() + static_cast<int>(once.positions.rows());
+    const ClosestPointIndex index(mesh);
+    Points queries = random_points(1000, 1, 61);
+    std::vector<int> hints(1000, -1);
+    for (int round = 0; round < 6; ++round) {
+        const std::vector<ClosestPoint> answers = index.closest(queries, hints);
+        for (Eigen::Index i = 0; i < queries.rows(); ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            expect_same_bits(answers[k], index.closest(Point(queries.row(i))));
+            hints[k] = answers[k].where.triangle;
+            queries.row(i) += 0.5 * (answers[k].position - queries.row(i));
+        }
     }
 }
 

@@ -1,78 +1,20 @@
-// A tree of boxes over the triangles, searched from the nearer child on.
+// The wide searches behind the public class: the hint first, then the tree.
 #include "meshtween/search/closest_point.h"
 
 #include "meshtween/core/error.h"
 #include "meshtween/core/parallel.h"
 #include "meshtween/geometry/measure.h"
-#include "meshtween/search/triangle_distance.h"
+#include "meshtween/search/visiting_order.h"
+#include "meshtween/search/wide_build.h"
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
-#include <numeric>
 
 namespace meshtween {
 namespace {
 
-using Box = Eigen::AlignedBox3d;
-
-struct Node {
-    Box box;
-    int first = 0; // of its triangles in the order, or its left child (the right one follows)
-    int count = 0; // of triangles; 0 for an inner node
-};
-
-constexpr int leaf_size = 4;
-
-double squared_distance(const Box& box, const Point& query) {
-    const Eigen::Vector3d outside =
-        (box.min() - query.transpose()).cwiseMax(query.transpose() - box.max()).cwiseMax(0.0);
-    return outside.squaredNorm();
-}
-
-} // namespace
-
-struct ClosestPointIndex::Data {
-    Points positions;
-    Triangles triangles;
-    Points normals;
-    std::vector<Node> nodes;
-    std::vector<int> order;
-
-    void build();
-    void split(int node, int begin, int end, const Points& centres);
-    ClosestPoint search(const Point& query, const Compatible& compatible, double bound, int hint) const;
-};
-
-void ClosestPointIndex::Data::split(int node, int begin, int end, const Points& centres) {
-    Box box, middle;
-    for (int i = begin; i < end; ++i) {
-        const int t = order[static_cast<std::size_t>(i)];
-        for (int k = 0; k < 3; ++k) box.extend(positions.row(triangles(t, k)).transpose());
-        middle.extend(centres.row(t).transpose());
-    }
-    nodes[static_cast<std::size_t>(node)].box = box;
-    if (end - begin <= leaf_size) {
-        nodes[static_cast<std::size_t>(node)].first = begin;
-        nodes[static_cast<std::size_t>(node)].count = end - begin;
-        return;
-    }
-    int axis = 0;
-    middle.sizes().maxCoeff(&axis);
-    const int half = (begin + end) / 2;
-    std::nth_element(order.begin() + begin, order.begin() + half, order.begin() + end, [&](int s, int t) {
-        return centres(s, axis) != centres(t, axis) ? centres(s, axis) < centres(t, axis) : s < t;
-    });
-    const int left = static_cast<int>(nodes.size());
-    nodes[static_cast<std::size_t>(node)].first = left;
-    nodes.resize(nodes.size() + 2);
-    split(left, begin, half, centres);
-    split(left + 1, half, end, centres);
-}
-
-void ClosestPointIndex::Data::build() {
+void check(const Points& positions, const Triangles& triangles) {
     if (triangles.rows() == 0)
         throw Error(ErrorKind::computation, "a mesh without triangles has no closest point: give one with faces");
     for (Eigen::Index t = 0; t < triangles.rows(); ++t)
@@ -84,66 +26,64 @@ void ClosestPointIndex::Data::build() {
             if (!positions.row(v).allFinite())
                 throw Error(ErrorKind::computation, fmt::format("vertex {} has a coordinate that is not finite", v));
         }
-    normals = triangle_normals(positions, triangles);
-    Points centres(triangles.rows(), 3);
-    for (Eigen::Index t = 0; t < triangles.rows(); ++t)
-        centres.row(t) =
-            (positions.row(triangles(t, 0)) + positions.row(triangles(t, 1)) + positions.row(triangles(t, 2))) / 3;
-    order.resize(static_cast<std::size_t>(triangles.rows()));
-    std::iota(order.begin(), order.end(), 0);
-    nodes.resize(1);
-    split(0, 0, static_cast<int>(order.size()), centres);
+}
+
+} // namespace
+
+struct ClosestPointIndex::Data {
+    Points positions;
+    Triangles triangles;
+    Points normals;
+    search::WideTree tree;
+
+    search::WideView view() const;
+    ClosestPoint search(const Point& query, const Compatible& compatible, double bound, int hint) const;
+};
+
+search::WideView ClosestPointIndex::Data::view() const {
+    const auto rows = [](const auto* data) {
+        using Row = std::remove_pointer_t<decltype(data)>[3];
+        return reinterpret_cast<Row*>(data);
+    };
+    return {tree.nodes.data(),
+            tree.blocks.data(),
+            tree.neighbourhoods.data(),
+            tree.home.data(),
+            {tree.origin[0], tree.origin[1], tree.origin[2]},
+            tree.scale,
+            rows(positions.data()),
+            rows(triangles.data()),
+            rows(normals.data())};
 }
 
 ClosestPoint ClosestPointIndex::Data::search(const Point& query, const Compatible& compatible, double bound,
                                              int hint) const {
-    const bool any = compatible.normal.isZero(0);
-    ClosestPoint best;
-    best.squared_distance = bound;
-    const auto visit = [&](int t) {
-        if (!any && normals.row(t).dot(compatible.normal) < compatible.least_cosine) return;
-        const auto found = search::closest_on_triangle(query, positions.row(triangles(t, 0)),
-                                                       positions.row(triangles(t, 1)), positions.row(triangles(t, 2)));
-        const double d = found.squared_distance;
-        // Of triangles equally close the first one answers, whatever the hint and the tree.
-        if (d < best.squared_distance || (d == best.squared_distance && (!best.found() || t < best.where.triangle))) {
-            best.squared_distance = d;
-            best.where = {t, {1 - found.v - found.w, found.v, found.w}};
-        }
-    };
-    if (hint >= 0 && hint < triangles.rows()) visit(hint);
-    struct Waiting {
-        int node;
-        double distance;
-    };
-    std::array<Waiting, 128> stack; // the halving tree is at most 32 deep
-    int top = 0;
-    stack[static_cast<std::size_t>(top++)] = {0, squared_distance(nodes[0].box, query)};
-    while (top > 0) {
-        const Waiting here = stack[static_cast<std::size_t>(--top)];
-        // The box's distance and the triangle's differ by rounding, and equal distances are to be seen.
-        if (!(here.distance <= best.squared_distance * (1 + 1e-12))) continue;
-        const Node& node = nodes[static_cast<std::size_t>(here.node)];
-        if (node.count > 0) {
-            for (int i = node.first; i < node.first + node.count; ++i) visit(order[static_cast<std::size_t>(i)]);
-            continue;
-        }
-        Waiting near{node.first, squared_distance(nodes[static_cast<std::size_t>(node.first)].box, query)};
-        Waiting far{node.first + 1, squared_distance(nodes[static_cast<std::size_t>(node.first + 1)].box, query)};
-        if (far.distance < near.distance) std::swap(near, far);
-        stack[static_cast<std::size_t>(top++)] = far;
-        stack[static_cast<std::size_t>(top++)] = near;
-    }
-    if (!best.found()) return {};
-    best.position = position(positions, triangles, best.where);
-    return best;
+    if (!query.allFinite()) return {};
+    const search::WideView seen = view();
+    const Point& n = compatible.normal;
+    search::WideQuery asked{
+        {query[0], query[1], query[2]}, {n[0], n[1], n[2]}, compatible.least_cosine, !n.isZero(0), bound, -1, 0, 0};
+    if (hint >= 0 && hint < triangles.rows() && agrees(seen, asked, hint)) settle(seen, asked, hint);
+    constexpr double far_away = 64; // times the mesh's size
+    if ((query - tree.origin).cwiseAbs().maxCoeff() * tree.scale > far_away)
+        search_far(seen, asked);
+    else
+        search::current_search()(seen, asked);
+    if (asked.triangle < 0) return {};
+    ClosestPoint answer;
+    answer.squared_distance = asked.squared_distance;
+    answer.where = {asked.triangle, {1 - asked.v - asked.w, asked.v, asked.w}};
+    answer.position = position(positions, triangles, answer.where);
+    return answer;
 }
 
 ClosestPointIndex::ClosestPointIndex(const Points& positions, const Triangles& triangles)
     : data_(std::make_unique<Data>()) {
+    check(positions, triangles);
     data_->positions = positions;
     data_->triangles = triangles;
-    data_->build();
+    data_->normals = triangle_normals(positions, triangles);
+    data_->tree = search::wide_tree(positions, triangles);
 }
 ClosestPointIndex::~ClosestPointIndex() = default;
 ClosestPointIndex::ClosestPointIndex(ClosestPointIndex&&) noexcept = default;
@@ -160,13 +100,20 @@ ClosestPoint ClosestPointIndex::closest(const Point& query, const Compatible& co
 
 std::vector<ClosestPoint> ClosestPointIndex::closest_of_each(const Points& queries, std::span<const int> hints) const {
     std::vector<ClosestPoint> answers(static_cast<std::size_t>(queries.rows()));
-    parallel_for(
-        queries.rows(),
-        [&](Eigen::Index i) {
-            const auto k = static_cast<std::size_t>(i);
-            answers[k] = closest(Point(queries.row(i)), hints.empty() ? -1 : hints[k]);
-        },
-        256);
+    const std::vector<int> order = search::visiting_order(queries);
+    constexpr Eigen::Index block = 256;
+    parallel_for((queries.rows() + block - 1) / block,
+                 [&](Eigen::Index b) {
+                     int last = -1; // the answer to the query before is a hint for the next
+                     for (Eigen::Index i = b * block; i < std::min(queries.rows(), (b + 1) * block); ++i) {
+                         const auto q =
+                             static_cast<std::size_t>(order.empty() ? i : order[static_cast<std::size_t>(i)]);
+                         const int hint = hints.empty() || hints[q] < 0 ? last : hints[q];
+                         answers[q] = closest(Point(queries.row(static_cast<Eigen::Index>(q))), hint);
+                         last = answers[q].where.triangle;
+                     }
+                 },
+                 1);
     return answers;
 }
 

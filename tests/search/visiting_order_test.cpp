@@ -1,0 +1,51 @@
+#include "meshtween/search/visiting_order.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace meshtween::search {
+namespace {
+
+Points random_points(Eigen::Index count) {
+    std::mt19937_64 random(7);
+    std::uniform_real_distribution<double> coordinate(-3, 5);
+    return Points::NullaryExpr(count, 3, [&] { return coordinate(random); });
+}
+
+double way(const Points& points, const std::vector<int>& order) {
+    double sum = 0;
+    for (std::size_t i = 1; i < order.size(); ++i) sum += (points.row(order[i]) - points.row(order[i - 1])).norm();
+    return sum;
+}
+
+TEST(VisitingOrder, VisitsEachPointOnceOnAShortWay) {
+    const Points points = random_points(5000);
+    const std::vector<int> order = visiting_order(points);
+    std::vector<int> sorted = order, own(5000);
+    std::sort(sorted.begin(), sorted.end());
+    for (int i = 0; i < 5000; ++i) own[static_cast<std::size_t>(i)] = i;
+    ASSERT_EQ(sorted, own);
+    EXPECT_LT(way(points, order), 0.2 * way(points, own));
+}
+
+TEST(VisitingOrder, LeavesAGoodOrderAlone) {
+    Points line(5000, 3);
+    for (int i = 0; i < 5000; ++i) line.row(i) << i, std::sin(0.01 * i), 0;
+    EXPECT_TRUE(visiting_order(line).empty());
+    EXPECT_TRUE(visiting_order(random_points(100)).empty());
+    EXPECT_TRUE(visiting_order(Points::Constant(5000, 3, 2.5)).empty());
+    EXPECT_TRUE(visiting_order(Points(0, 3)).empty());
+}
+
+TEST(VisitingOrder, TakesPointsThatAreNotFinite) {
+    Points points = random_points(3000);
+    points.row(17).setConstant(NAN);
+    points.row(99).setConstant(INFINITY);
+    EXPECT_EQ(visiting_order(points).size(), 3000u);
+}
+
+} // namespace
+} // namespace meshtween::search
