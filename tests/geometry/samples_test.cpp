@@ -3,6 +3,7 @@
 #include "meshtween/core/error.h"
 #include "meshtween/core/parallel.h"
 #include "meshtween/geometry/measure.h"
+#include "meshtween/geometry/surface_lookup.h"
 #include "meshtween/geometry/topology.h"
 
 #include <gtest/gtest.h>
@@ -33,52 +34,80 @@ bool closed_and_oriented(const Mesh& mesh) {
 
 class SampleOf : public testing::TestWithParam<std::string> {};
 
-TEST_P(SampleOf, MeshesAreSound) {
-    const Sample s = sample(GetParam());
-    for (const Mesh* mesh : {&s.source, &s.target}) {
-        ASSERT_TRUE(mesh->positions.allFinite());
-        EXPECT_TRUE(closed_and_oriented(*mesh));
-        const Topology t = topology(mesh->positions.rows(), mesh->triangles);
-        const auto edges = static_cast<long>(t.edges.size());
-        EXPECT_EQ(mesh->positions.rows() - edges + mesh->triangles.rows(), 2 - 2 * expected_genus(s.name));
-        const std::vector<int> parts = components(t);
-        EXPECT_EQ(*std::max_element(parts.begin(), parts.end()), 0);
-        EXPECT_GT(volume(mesh->positions, mesh->triangles), 0);
-        const double length = diagonal(mesh->positions);
-        for (Eigen::Index f = 0; f < mesh->triangles.rows(); ++f)
-            EXPECT_GT(triangle_area(mesh->positions, mesh->triangles, f), 1e-8 * length * length) << "face " << f;
+void expect_sound(const Mesh& mesh, int genus) {
+    ASSERT_TRUE(mesh.positions.allFinite());
+    EXPECT_TRUE(closed_and_oriented(mesh));
+    const Topology t = topology(mesh.positions.rows(), mesh.triangles);
+    const auto edges = static_cast<long>(t.edges.size());
+    EXPECT_EQ(mesh.positions.rows() - edges + mesh.triangles.rows(), 2 - 2 * genus);
+    const std::vector<int> parts = components(t);
+    EXPECT_EQ(*std::max_element(parts.begin(), parts.end()), 0);
+    EXPECT_GT(volume(mesh.positions, mesh.triangles), 0);
+    const double length = diagonal(mesh.positions);
+    double smallest = length;
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
+        smallest = std::min(smallest, triangle_area(mesh.positions, mesh.triangles, f));
+    EXPECT_GT(smallest, 1e-7 * length * length);
+}
+
+// The source's triangles on the truth must give the target's body: its volume, its area, its extent.
+void expect_true(const Sample& s) {
+    ASSERT_EQ(s.truth.rows(), s.source.positions.rows());
+    ASSERT_TRUE(s.truth.allFinite());
+    const double length = diagonal(s.target.positions), bulk = volume(s.target.positions, s.target.triangles);
+    const double skin = surface_area(s.target.positions, s.target.triangles);
+    EXPECT_NEAR(volume(s.truth, s.source.triangles), bulk, 0.01 * bulk);
+    EXPECT_NEAR(surface_area(s.truth, s.source.triangles), skin, 0.01 * skin);
+    EXPECT_NEAR(diagonal(s.truth), length, 0.005 * length);
+    const SurfaceLookup on_target(s.target, 0.01 * length);
+    EXPECT_LT((on_target.closest(s.truth) - s.truth).rowwise().norm().maxCoeff(), 0.001 * length);
+}
+
+void expect_marked(const Sample& s) {
+    ASSERT_EQ(s.marker_source.rows(), static_cast<Eigen::Index>(s.marker_names.size()));
+    ASSERT_EQ(s.marker_target.rows(), s.marker_source.rows());
+    EXPECT_EQ(std::set(s.marker_names.begin(), s.marker_names.end()).size(), s.marker_names.size());
+    const double length = diagonal(s.target.positions);
+    const SurfaceLookup on_source(s.source, 0.01 * length), on_target(s.target, 0.01 * length);
+    for (Eigen::Index m = 0; m < s.marker_source.rows(); ++m) {
+        // The truth near the marker leads to the marker's other end.
+        Eigen::Index v = 0;
+        const double away = (s.source.positions.rowwise() - s.marker_source.row(m)).rowwise().norm().minCoeff(&v);
+        EXPECT_LT((s.truth.row(v) - s.marker_target.row(m)).norm(), 2 * away + 0.002 * length)
+            << s.marker_names[static_cast<std::size_t>(m)];
+        const Point from = s.marker_source.row(m), to = s.marker_target.row(m);
+        EXPECT_LT((on_source.closest(from) - from).norm(), 1e-9 * length);
+        EXPECT_LT((on_target.closest(to) - to).norm(), 1e-9 * length);
     }
 }
 
-TEST_P(SampleOf, PartsFitTogether) {
+TEST_P(SampleOf, IsSoundTrueAndTheSameTwice) {
+    const int before = threads();
+    set_threads(1);
     const Sample s = sample(GetParam());
+    set_threads(2);
+    const Sample again = sample(GetParam());
+    set_threads(before);
     EXPECT_EQ(s.name, GetParam());
-    EXPECT_EQ(s.truth.rows(), s.source.positions.rows());
-    EXPECT_TRUE(s.truth.allFinite());
-    EXPECT_EQ(s.marker_source.rows(), s.marker_target.rows());
-    EXPECT_EQ(s.marker_source.rows(), static_cast<Eigen::Index>(s.marker_names.size()));
-    EXPECT_EQ(std::set(s.marker_names.begin(), s.marker_names.end()).size(), s.marker_names.size());
+    EXPECT_FALSE(s.description.empty());
+    expect_sound(s.source, expected_genus(s.name));
+    expect_sound(s.target, expected_genus(s.name));
+    expect_true(s);
+    expect_marked(s);
+    EXPECT_EQ(s.same_connectivity,
+              s.source.triangles.rows() == s.target.triangles.rows() && s.source.triangles == s.target.triangles);
+    EXPECT_EQ(s.same_connectivity, s.marker_names.empty());
     if (s.same_connectivity) {
-        EXPECT_EQ(s.source.triangles, s.target.triangles);
         EXPECT_EQ(s.truth, s.target.positions);
         EXPECT_EQ(s.middle.rows(), s.source.positions.rows());
     }
-}
-
-TEST_P(SampleOf, SameBitsForAnyNumberOfThreads) {
-    const int before = threads();
-    set_threads(1);
-    const Sample one = sample(GetParam());
-    set_threads(2);
-    const Sample two = sample(GetParam());
-    set_threads(before);
-    EXPECT_EQ(one.source.positions, two.source.positions);
-    EXPECT_EQ(one.source.triangles, two.source.triangles);
-    EXPECT_EQ(one.target.positions, two.target.positions);
-    EXPECT_EQ(one.target.triangles, two.target.triangles);
-    EXPECT_EQ(one.truth, two.truth);
-    EXPECT_EQ(one.marker_source, two.marker_source);
-    EXPECT_EQ(one.marker_target, two.marker_target);
+    EXPECT_EQ(s.source.positions, again.source.positions);
+    EXPECT_EQ(s.source.triangles, again.source.triangles);
+    EXPECT_EQ(s.target.positions, again.target.positions);
+    EXPECT_EQ(s.target.triangles, again.target.triangles);
+    EXPECT_EQ(s.truth, again.truth);
+    EXPECT_EQ(s.marker_source, again.marker_source);
+    EXPECT_EQ(s.marker_target, again.marker_target);
 }
 
 std::vector<std::string> names() {

@@ -1,6 +1,7 @@
 #include "meshtween/geometry/samples.h"
 
 #include "meshtween/core/error.h"
+#include "meshtween/geometry/sample_makers.h"
 #include "meshtween/geometry/shapes.h"
 
 #include <fmt/format.h>
@@ -57,6 +58,10 @@ struct Entry {
 
 const std::vector<Entry>& entries() {
     static const std::vector<Entry> all{
+        {{"bow", "a standing woman and a bowing man; two meshes, 40 markers"}, bow_sample},
+        {{"bow-pose", "a woman who stands, and the same who bows; one mesh"}, bow_pose_sample},
+        {{"build", "a woman and a man in one pose; two meshes, 40 markers"}, build_sample},
+        {{"arms", "a woman, her arms down and raised; two meshes, 40 markers"}, arms_sample},
         {{"bar-bend", "a straight bar, and the same bent by 180 degrees; one mesh"}, bar_bend},
         {{"bar-twist", "a straight bar, and the same twisted by 180 degrees; one mesh"}, bar_twist},
         {{"sphere-turn", "a sphere, and the same turned by 120 degrees; one mesh"}, sphere_turn},

@@ -1,0 +1,80 @@
+// The closest point of a triangle after Ericson 2004, "Real-time collision detection", 5.1.5.
+#include "meshtween/geometry/surface_lookup.h"
+
+#include "meshtween/core/parallel.h"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+namespace meshtween {
+namespace {
+
+constexpr long wide = 1L << 20; // cells along an axis, more than any sample needs
+
+Point closest_on_triangle(const Point& p, const Point& a, const Point& b, const Point& c) {
+    const Point ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
+    const double d1 = ab.dot(ap), d2 = ac.dot(ap), d3 = ab.dot(bp), d4 = ac.dot(bp), d5 = ab.dot(cp), d6 = ac.dot(cp);
+    if (d1 <= 0 && d2 <= 0) return a;
+    if (d3 >= 0 && d4 <= d3) return b;
+    if (d6 >= 0 && d5 <= d6) return c;
+    const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
+    if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + d1 / (d1 - d3) * ab;
+    if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + d2 / (d2 - d6) * ac;
+    if (va <= 0 && d4 >= d3 && d5 >= d6) return b + (d4 - d3) / (d4 - d3 + d5 - d6) * (c - b);
+    return a + vb / (va + vb + vc) * ab + vc / (va + vb + vc) * ac;
+}
+
+} // namespace
+
+// A cell is as wide as the reach.
+SurfaceLookup::SurfaceLookup(const Mesh& mesh, double reach)
+    : mesh_(mesh), reach_(reach), low_(mesh.positions.colwise().minCoeff().array() - 2 * reach) {
+    for (int t = 0; t < mesh.triangles.rows(); ++t) {
+        Eigen::Matrix3d corners;
+        for (int k = 0; k < 3; ++k) corners.row(k) = (mesh.positions.row(mesh.triangles(t, k)) - low_) / reach;
+        const Eigen::RowVector3i from = corners.colwise().minCoeff().cast<int>(),
+                                 to = corners.colwise().maxCoeff().cast<int>();
+        for (int k = from[2]; k <= to[2]; ++k)
+            for (int j = from[1]; j <= to[1]; ++j)
+                for (int i = from[0]; i <= to[0]; ++i) entries_.push_back({(k * wide + j) * wide + i, t});
+    }
+    std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
+        return std::tie(a.cell, a.triangle) < std::tie(b.cell, b.triangle);
+    });
+}
+
+long SurfaceLookup::cell(const Point& p, int i, int j, int k) const {
+    const Eigen::RowVector3i at = ((p - low_) / reach_).array().floor().matrix().cast<int>();
+    return ((at[2] + k) * wide + at[1] + j) * wide + at[0] + i;
+}
+
+Point SurfaceLookup::closest(const Point& p) const {
+    Point best = p;
+    double least = reach_ * reach_;
+    for (int k = -1; k <= 1; ++k)
+        for (int j = -1; j <= 1; ++j)
+            for (int i = -1; i <= 1; ++i) {
+                const long here = cell(p, i, j, k);
+                auto entry = std::lower_bound(entries_.begin(), entries_.end(), here,
+                                              [](const Entry& e, long c) { return e.cell < c; });
+                for (; entry != entries_.end() && entry->cell == here; ++entry) {
+                    const auto corners = mesh_.triangles.row(entry->triangle);
+                    const Point q =
+                        closest_on_triangle(p, mesh_.positions.row(corners[0]), mesh_.positions.row(corners[1]),
+                                            mesh_.positions.row(corners[2]));
+                    const double distance = (q - p).squaredNorm();
+                    if (distance < least) least = distance, best = q;
+                }
+            }
+    return best;
+}
+
+Points SurfaceLookup::closest(const Points& points) const {
+    Points result(points.rows(), 3);
+    parallel_for(
+        points.rows(), [&](Eigen::Index i) { result.row(i) = closest(Point(points.row(i))); }, 64);
+    return result;
+}
+
+} // namespace meshtween
