@@ -1,6 +1,6 @@
 #include "meshtween/io/gltf_write.h"
 
-#include "glb.h"
+#include "support/glb.h"
 
 #include "meshtween/core/error.h"
 #include "meshtween/geometry/measure.h"

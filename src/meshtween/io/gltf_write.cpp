@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -274,12 +275,12 @@ std::string mesh_glb(const Mesh& mesh, const GltfMorph& morph, const std::string
         part["weights"] = std::vector<double>(morph.shapes.size(), 0);
         part["extras"] = {{"targetNames", morph.names}, {"parameters", morph.parameters}};
     }
-    const double base = mesh.colors.rows() > 0 ? 1 : 0.8; // a light clay that leaves room for highlights
+    const std::array<double, 4> base =
+        mesh.colors.rows() > 0 ? std::array{1.0, 1.0, 1.0, 1.0} : std::array{0.70, 0.625, 0.555, 1.0}; // clay
     glb.root["materials"] = json::array(
         {{{"name", "surface"},
           {"doubleSided", true},
-          {"pbrMetallicRoughness",
-           {{"baseColorFactor", {base, base, base, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0.6}}}}});
+          {"pbrMetallicRoughness", {{"baseColorFactor", base}, {"metallicFactor", 0}, {"roughnessFactor", 0.6}}}}});
     glb.root["meshes"] = json::array({part});
     glb.root["nodes"] = json::array({node});
     glb.root["scenes"] = json::array({{{"nodes", json::array({0})}}});

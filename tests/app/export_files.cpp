@@ -1,0 +1,76 @@
+// Writes what the validator and the browser look at: export_files FOLDER
+#include "meshtween/app/export.h"
+#include "meshtween/io/gltf_write.h"
+#include "meshtween/io/output.h"
+#include "support/twist.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+using namespace meshtween;
+
+namespace {
+
+// The bar with a colour a vertex and a UV seam along one of its sides.
+Mesh painted(Mesh mesh) {
+    const Eigen::Index n = mesh.positions.rows();
+    mesh.colors.resize(n, 4);
+    mesh.texcoords.resize(2 * n, 2);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const Point p = mesh.positions.row(i);
+        mesh.colors.row(i) << static_cast<float>(p[0] / 3), 0.5F, static_cast<float>(1 - p[0] / 3), 1;
+        const double around = std::atan2(p[2], p[1]) / (2 * std::numbers::pi) + 0.5;
+        mesh.texcoords.row(i) << static_cast<float>(around), static_cast<float>(p[0] / 3);
+        mesh.texcoords.row(n + i) << static_cast<float>(around + 1), static_cast<float>(p[0] / 3);
+    }
+    mesh.texcoord_triangles = mesh.triangles;
+    for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t)
+        for (int c = 0; c < 3; ++c) {
+            const auto u = [&](int k) { return mesh.texcoords(mesh.triangles(t, k), 0); };
+            if (u(c) < 0.25F && std::max({u(0), u(1), u(2)}) > 0.75F)
+                mesh.texcoord_triangles(t, c) += static_cast<int>(n);
+        }
+    return mesh;
+}
+
+// u and all vertices of the curve there, for a few u, as JSON.
+std::string shapes_of(const Curve& curve) {
+    std::string text = "[";
+    for (const double u : {0.0, 0.05, 0.31, 0.5, 0.77, 1.0}) {
+        const Points p = curve.at(u);
+        text += fmt::format("{}{{\"u\":{},\"vertices\":[{}]}}", text.size() > 1 ? "," : "", u,
+                            fmt::join(p.data(), p.data() + p.size(), ","));
+    }
+    return text + "]";
+}
+
+} // namespace
+
+int main(int count, char** arguments) {
+    if (count != 2) return 1;
+    const std::filesystem::path folder = arguments[1];
+    std::filesystem::create_directories(folder);
+    const Mesh mesh = straight_bar();
+    const Curve curve = twist_curve(mesh);
+    const PlayOptions options{.seconds = 2, .ping_pong = true, .title = "A bar, twisted <by 180\u00b0>"};
+    write_whole(folder / "mesh.glb", mesh_glb(mesh));
+    write_whole(folder / "painted.glb", mesh_glb(painted(mesh)));
+    const std::string glb = morph_glb(mesh, curve, options);
+    write_whole(folder / "morph.glb", glb);
+    write_whole(folder / "morph.html", morph_html(glb, options));
+    write_whole(folder / "morph.json", shapes_of(curve));
+    write_whole(folder / "morph_painted.glb",
+                morph_glb(painted(mesh), curve, {.seconds = 1, .ping_pong = false, .title = ""}));
+
+    const Mesh large = straight_bar(5); // more vertices than 16 bits count
+    write_whole(folder / "morph_large.glb", morph_glb(large, twist_curve(large, 1, 5)));
+
+    Curve far = curve; // needs the node's translation
+    for (Points& node : far.nodes) node.rowwise() += Point(2e5, -1e6, 3e5);
+    const std::string far_glb = morph_glb(mesh, far);
+    write_whole(folder / "far.glb", far_glb);
+    write_whole(folder / "far.html", morph_html(far_glb, {.seconds = 2, .ping_pong = false, .title = ""}));
+    write_whole(folder / "far.json", shapes_of(far));
+    return 0;
+}
