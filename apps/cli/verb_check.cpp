@@ -1,0 +1,58 @@
+#include "inputs.h"
+
+#include "meshtween/core/error.h"
+#include "meshtween/geometry/check.h"
+#include "meshtween/io/mesh_io.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+using namespace meshtween;
+
+namespace {
+
+std::string_view word(Severity severity) {
+    switch (severity) {
+    case Severity::note:
+        return "note";
+    case Severity::warning:
+        return "warning";
+    case Severity::error:
+        return "error";
+    }
+    return "";
+}
+
+// Prints what is wrong with one file; true where nothing stops work with it.
+bool check_file(const std::string& path) {
+    try {
+        const Mesh mesh = read_mesh(path);
+        fmt::print("{}: {} vertices, {} triangles\n", path, mesh.positions.rows(), mesh.triangles.rows());
+        bool usable = true;
+        for (const Finding& finding : check(mesh)) {
+            fmt::print("{}: {}: {}\n", path, word(finding.severity), finding.what);
+            usable = usable && finding.severity != Severity::error;
+        }
+        return usable;
+    } catch (const Error& error) {
+        fmt::print("{}\n", error.what());
+        return false;
+    }
+}
+
+} // namespace
+
+void add_check(CLI::App& app, const Common&) {
+    auto* verb = app.add_subcommand("check", "What is wrong with a mesh, in words with the element's number");
+    verb->footer("Elements are numbered from 0. Exit status 3 where a mesh cannot be used at all.\n"
+                 "Example: meshtween check scan.ply template.obj");
+    const auto paths = std::make_shared<std::vector<std::string>>();
+    verb->add_option("MESH", *paths, "Meshes to look at")->required();
+    verb->callback([paths] {
+        long bad = 0;
+        for (const std::string& path : *paths) bad += !check_file(path);
+        std::fflush(stdout);
+        if (bad > 0) throw Error(ErrorKind::file, fmt::format("{} of {} meshes cannot be used", bad, paths->size()));
+    });
+}

@@ -1,0 +1,48 @@
+#include "inputs.h"
+
+#include <memory>
+
+using namespace meshtween;
+
+namespace {
+struct Arguments {
+    std::string source, target, truth, report;
+    std::vector<std::string> markers, outputs;
+    FitFlags fit;
+};
+} // namespace
+
+void add_fit(CLI::App& app, const Common& common) {
+    auto* verb = app.add_subcommand("fit", "Bring the source's mesh onto the target's surface");
+    verb->footer("Example: meshtween fit template.ply scan.ply --markers markers.csv -o fitted.ply --report fit.json");
+    const auto a = std::make_shared<Arguments>();
+    verb->add_option("SOURCE", a->source, "Mesh whose connectivity is kept")->required();
+    verb->add_option("TARGET", a->target, "Mesh whose surface it is brought to")->required();
+    verb->add_option("--markers", a->markers, "Marker pairs in one file, or the source's and the target's file")
+        ->required()
+        ->expected(1, 2);
+    verb->add_option("-o,--output", a->outputs, "x.obj, .ply, .stl, .off, .glb or .png; may be given several times")
+        ->required()
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    verb->add_option("--report", a->report, "Write what was found out as JSON");
+    add_fit_flags(*verb, a->fit);
+    verb->callback([a, &common] {
+        const auto start = std::chrono::steady_clock::now();
+        Console console(common.quiet);
+        Json report = new_report("fit");
+        const auto outputs = load_outputs(a->outputs);
+        const Mesh source = load_mesh(a->source, console), target = load_mesh(a->target, console);
+        report["source"] = describe(source), report["target"] = describe(target);
+        const MarkerPairs markers = load_markers(a->markers, source, target, console);
+        const Fitted fitted = run_fit(source, target, markers, a->fit, {}, console.progress(), console);
+        report["fit"] = fitted.report;
+        const Written written = write_still(fitted.mesh, "source's mesh on the target",
+                                            {{"source", source, {}}, {"target", target, {}}}, outputs);
+        for (const auto& file : written.files) {
+            report["outputs"].push_back(file.string());
+            console.note("wrote " + file.string());
+        }
+        finish_report(report, a->report, start);
+    });
+}

@@ -1,0 +1,103 @@
+#include "inputs.h"
+
+#include "meshtween/core/error.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+using namespace meshtween;
+
+namespace {
+
+struct Arguments {
+    std::string source, target, template_mesh;
+    std::vector<std::string> markers, markers_a, markers_b, outputs;
+    FitFlags fit;
+    PathFlags path;
+    std::string report;
+};
+
+Points side(const MarkerPairs& markers, bool source) {
+    Points points(std::ssize(markers.pairs), 3);
+    for (Eigen::Index i = 0; i < points.rows(); ++i) {
+        const MarkerPair& pair = markers.pairs[static_cast<std::size_t>(i)];
+        points.row(i) = source ? pair.source : pair.target;
+    }
+    return points;
+}
+
+// Source to target: one fit.
+void morph_two(const Arguments& a, Console& console, Json& report) {
+    const auto outputs = load_outputs(a.outputs);
+    const Mesh source = load_mesh(a.source, console), target = load_mesh(a.target, console);
+    report["source"] = describe(source), report["target"] = describe(target);
+    const MarkerPairs markers = load_markers(a.markers, source, target, console);
+    const Progress progress = console.progress();
+    const Fitted fitted = run_fit(source, target, markers, a.fit, {}, part_of(progress, 0, 0.6), console);
+    report["fit"] = fitted.report;
+    const std::vector<Tile> tiles{{"source", source, side(markers, true)},
+                                  {"target", target, side(markers, false)},
+                                  {"source's mesh on the target", fitted.mesh, {}}};
+    write_path(source, fitted.mesh.positions, a.path, outputs, tiles, a.source + " to " + a.target,
+               part_of(progress, 0.6, 1), console, report);
+}
+
+// One template on both shapes (the paper's Fig. 12), then from one fit to the other.
+void morph_through_template(const Arguments& a, Console& console, Json& report) {
+    const auto outputs = load_outputs(a.outputs);
+    const Mesh common = load_mesh(a.template_mesh, console);
+    const Mesh first = load_mesh(a.source, console), second = load_mesh(a.target, console);
+    report["template"] = describe(common), report["source"] = describe(first), report["target"] = describe(second);
+    const MarkerPairs to_first = load_markers(a.markers_a, common, first, console);
+    const MarkerPairs to_second = load_markers(a.markers_b, common, second, console);
+    const Progress progress = console.progress();
+    const Fitted from = run_fit(common, first, to_first, a.fit, {}, part_of(progress, 0, 0.35), console);
+    const Fitted to = run_fit(common, second, to_second, a.fit, {}, part_of(progress, 0.35, 0.7), console);
+    report["fit_source"] = from.report, report["fit_target"] = to.report;
+    const std::vector<Tile> tiles{{"template", common, side(to_first, true)},
+                                  {"source", first, side(to_first, false)},
+                                  {"target", second, side(to_second, false)}};
+    write_path(from.mesh, to.mesh.positions, a.path, outputs, tiles, a.source + " to " + a.target,
+               part_of(progress, 0.7, 1), console, report);
+}
+
+} // namespace
+
+void add_morph(CLI::App& app, const Common& common) {
+    auto* verb = app.add_subcommand("morph", "Fit the source's mesh to the target and write every shape between them");
+    verb->footer("Example: meshtween morph igea.ply planck.obj --markers markers.csv -o morph.glb -o morph.png");
+    const auto a = std::make_shared<Arguments>();
+    verb->add_option("SOURCE", a->source, "Mesh to start from, whose connectivity everything keeps")->required();
+    verb->add_option("TARGET", a->target, "Mesh to end at")->required();
+    auto* markers =
+        verb->add_option("--markers", a->markers, "Marker pairs in one file, or the source's and the target's file")
+            ->expected(1, 2);
+    auto* with_template =
+        verb->add_option("--template", a->template_mesh, "Mesh fitted to both, whose connectivity is kept");
+    auto* markers_a =
+        verb->add_option("--markers-a", a->markers_a, "Template and SOURCE")->expected(1, 2)->needs(with_template);
+    auto* markers_b =
+        verb->add_option("--markers-b", a->markers_b, "Template and TARGET")->expected(1, 2)->needs(with_template);
+    with_template->needs(markers_a)->needs(markers_b)->excludes(markers);
+    verb->add_option("-o,--output", a->outputs, "x.glb, x.html, x.png or frame_####.obj; may be given several times")
+        ->required()
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    verb->add_option("--report", a->report, "Write what was found out as JSON");
+    add_fit_flags(*verb, a->fit);
+    add_path_flags(*verb, a->path);
+    verb->callback([a, &common] {
+        if (a->template_mesh.empty() && a->markers.empty())
+            throw Error(ErrorKind::argument,
+                        "morph needs --markers FILE, or --template with --markers-a and --markers-b");
+        const auto start = std::chrono::steady_clock::now();
+        Console console(common.quiet);
+        Json report = new_report("morph");
+        if (a->template_mesh.empty())
+            morph_two(*a, console, report);
+        else
+            morph_through_template(*a, console, report);
+        finish_report(report, a->report, start);
+    });
+}

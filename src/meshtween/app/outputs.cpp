@@ -1,0 +1,161 @@
+#include "meshtween/app/outputs.h"
+
+#include "meshtween/app/export.h"
+#include "meshtween/core/error.h"
+#include "meshtween/io/mesh_io.h"
+#include "meshtween/io/output.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace meshtween {
+namespace {
+
+std::string lower_extension(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return std::tolower(c); });
+    return extension;
+}
+
+bool is_mesh_extension(const std::string& extension) {
+    const auto& known = mesh_extensions();
+    return std::find(known.begin(), known.end(), extension) != known.end();
+}
+
+Mesh with_positions(const Mesh& mesh, Points positions) {
+    Mesh moved = mesh;
+    moved.positions = std::move(positions);
+    return moved;
+}
+
+void write_frame(const Mesh& mesh, double u, const std::filesystem::path& path) {
+    if (lower_extension(path) == ".png")
+        write_png(contact_sheet({{fmt::format("u = {:.3g}", u), mesh, {}}}), path);
+    else
+        write_mesh(mesh, path);
+}
+
+void write_sequence(const Playable& playable, const std::filesystem::path& pattern, const Progress& progress,
+                    Written& written) {
+    for (int i = 0; i < playable.frames; ++i) {
+        const double u = playable.frames > 1 ? double(i) / (playable.frames - 1) : 0.5;
+        if (!keep_going(progress, double(i) / playable.frames, "writing frames")) {
+            written.cancelled = true;
+            return;
+        }
+        const auto path = numbered(pattern, i);
+        write_frame(with_positions(playable.mesh, playable.morph.at(u)), u, path);
+        written.files.push_back(path);
+    }
+}
+
+void write_sheet(const Playable& playable, const std::filesystem::path& path) {
+    std::vector<Tile> tiles = playable.before;
+    for (const double u : {0.0, 0.25, 0.5, 0.75, 1.0})
+        tiles.push_back({fmt::format("u = {:.2f}", u), with_positions(playable.mesh, playable.morph.at(u)), {}});
+    write_png(contact_sheet(tiles), path);
+}
+
+} // namespace
+
+Output output(const std::string& name) {
+    const std::filesystem::path path(name);
+    const std::string extension = lower_extension(path);
+    const auto folder = path.parent_path();
+    if (path.filename().empty() || path.filename() == "." || std::filesystem::is_directory(path))
+        throw Error(ErrorKind::argument, fmt::format("-o {} is a folder; name a file in it, such as {}", name,
+                                                     (path / "morph.glb").string()));
+    if (!folder.empty() && !std::filesystem::is_directory(folder))
+        throw Error(ErrorKind::file, fmt::format("{}: there is no folder {}; create it first", name, folder.string()));
+    const bool counted = path.filename().string().find('#') != std::string::npos;
+    if (counted && (is_mesh_extension(extension) || extension == ".png")) return {OutputKind::sequence, path};
+    if (extension == ".glb") return {OutputKind::glb, path};
+    if (extension == ".html") return {OutputKind::html, path};
+    if (extension == ".png") return {OutputKind::sheet, path};
+    if (is_mesh_extension(extension) && extension != ".gltf") return {OutputKind::mesh, path};
+    throw Error(
+        ErrorKind::argument,
+        fmt::format("-o {}: cannot tell what to write from \"{}\"; use .glb, .html, .png, .obj, .ply, .stl, .off, or "
+                    "frame_####.obj for a numbered sequence",
+                    name, extension));
+}
+
+std::filesystem::path numbered(const std::filesystem::path& pattern, int number) {
+    std::string file = pattern.filename().string();
+    const std::size_t first = file.find('#');
+    if (first == std::string::npos) return pattern;
+    const std::size_t last = std::min(file.find_first_not_of('#', first), file.size());
+    file.replace(first, last - first, fmt::format("{:0{}}", number, last - first));
+    return pattern.parent_path() / file;
+}
+
+Written write_outputs(const Playable& playable, const std::vector<Output>& outputs, const Progress& progress) {
+    for (const Output& out : outputs)
+        if (out.kind == OutputKind::mesh)
+            throw Error(ErrorKind::argument,
+                        fmt::format("-o {0} is one mesh: give --at U to say which, or write a sequence, such as {1}",
+                                    out.path.string(),
+                                    (out.path.stem().string() + "_####" + out.path.extension().string())));
+    Written written;
+    const bool plays = std::any_of(outputs.begin(), outputs.end(), [](const Output& out) {
+        return out.kind == OutputKind::glb || out.kind == OutputKind::html;
+    });
+    std::string glb;
+    PlayOptions play;
+    play.title = playable.title;
+    if (plays) {
+        const Curve path = curve(playable.morph, playable.curve, part_of(progress, 0, 0.7));
+        if (!keep_going(progress, 0.7, "writing")) {
+            written.cancelled = true;
+            return written;
+        }
+        written.nodes = static_cast<int>(path.nodes.size());
+        written.deviation = path.deviation;
+        glb = morph_glb(playable.mesh, path, play);
+    }
+    const double start = plays ? 0.7 : 0;
+    for (std::size_t i = 0; i < outputs.size() && !written.cancelled; ++i) {
+        const auto& [kind, path] = outputs[i];
+        const double from = start + (1 - start) * double(i) / double(outputs.size());
+        const Progress part = part_of(progress, from, start + (1 - start) * double(i + 1) / double(outputs.size()));
+        if (!keep_going(part, 0, "writing")) {
+            written.cancelled = true;
+            break;
+        }
+        if (kind == OutputKind::sequence) {
+            write_sequence(playable, path, part, written);
+            continue;
+        }
+        if (kind == OutputKind::glb) write_whole(path, glb);
+        if (kind == OutputKind::html) write_whole(path, morph_html(glb, play));
+        if (kind == OutputKind::sheet) write_sheet(playable, path);
+        written.files.push_back(path);
+    }
+    return written;
+}
+
+Written write_still(const Mesh& mesh, const std::string& caption, const std::vector<Tile>& before,
+                    const std::vector<Output>& outputs) {
+    for (const auto& [kind, path] : outputs)
+        if (kind == OutputKind::html || kind == OutputKind::sequence)
+            throw Error(
+                ErrorKind::argument,
+                fmt::format("-o {} plays a morph, but here is one shape; use .obj, .ply, .stl, .off, .glb or .png",
+                            path.string()));
+    Written written;
+    for (const auto& [kind, path] : outputs) {
+        if (kind == OutputKind::sheet) {
+            std::vector<Tile> tiles = before;
+            tiles.push_back({caption, mesh, {}});
+            write_png(contact_sheet(tiles), path);
+        } else {
+            write_mesh(mesh, path);
+        }
+        written.files.push_back(path);
+    }
+    return written;
+}
+
+} // namespace meshtween

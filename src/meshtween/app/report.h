@@ -1,0 +1,28 @@
+// What a run found out, as JSON: one object that scripts and people can read.
+#pragma once
+
+#include "meshtween/fit/fit.h"
+#include "meshtween/fit/quality.h"
+#include "meshtween/geometry/check.h"
+#include "meshtween/morph/morph.h"
+
+#include <nlohmann/json.hpp>
+
+namespace meshtween {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Statistics& s);
+Json to_json(const Quality& quality);
+Json to_json(const FitResult& result);
+Json to_json(const std::vector<Finding>& findings);
+Json describe(const Mesh& mesh); // counts, extent, area, volume and findings
+
+// Volume, area and edge strain of shapes along a path, a row for each u. Edge strain is the mean relative difference
+// between an edge's length and the blend of its lengths at both ends.
+Json path_report(const Mesh& mesh, const Morph& morph, const std::vector<double>& parameters);
+
+// The largest resident size of this process so far, in MiB.
+double peak_memory_mib();
+
+} // namespace meshtween

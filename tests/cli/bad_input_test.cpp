@@ -1,0 +1,309 @@
+// The table of bad input: what people really type and load, what they are told, and that nothing is left half-written.
+#include "support/program.h"
+
+#include <gtest/gtest.h>
+#include <sys/mount.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+#include <sstream>
+
+namespace {
+
+const std::string tetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+const std::string four_markers = "name,sx,sy,sz,tx,ty,tz\na,0,0,0,0,0,0\nb,1,0,0,1,0,0\nc,0,1,0,0,1,0\nd,0,0,1,0,0,1\n";
+
+// `#` in an argument stands for the test's folder, which holds the row's files and the good ones beside them.
+struct Row {
+    std::string name;
+    std::vector<std::pair<std::string, std::string>> files; // name, contents
+    std::vector<std::string> arguments;
+    int status;
+    std::vector<std::string> says; // words that standard error holds
+};
+
+std::ostream& operator<<(std::ostream& out, const Row& row) {
+    return out << row.name;
+}
+
+std::vector<std::string> fit_with(const std::string& source, const std::string& markers = "#/markers.csv") {
+    return {"fit", source, "#/good.obj", "--markers", markers, "-o", "#/out.obj"};
+}
+
+std::string binary_ply_header(const std::string& vertices) {
+    return "ply\nformat binary_little_endian 1.0\nelement vertex " + vertices +
+           "\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int "
+           "vertex_indices\n"
+           "end_header\n";
+}
+
+std::string with_line(std::string text, const std::string& line) {
+    return text + line + "\n";
+}
+
+const std::vector<Row> rows = {
+    // Files that are no meshes.
+    {"NoSuchFile", {}, fit_with("#/absent.obj"), 3, {"absent.obj", "no such file"}},
+    {"AFolder", {}, fit_with("#"), 1, {"extension"}},
+    {"AFolderNamedLikeAMesh", {{"d.obj/x", ""}}, fit_with("#/d.obj"), 3, {"d.obj", "folder"}},
+    {"Empty", {{"a.obj", ""}}, fit_with("#/a.obj"), 3, {"a.obj", "empty"}},
+    {"UnknownExtension", {{"a.fbx", "x"}}, fit_with("#/a.fbx"), 1, {".fbx", ".obj"}},
+    {"BinaryGarbage",
+     {{"a.ply", std::string("\x00\xff\x13\x37garbage\x00\x01", 13)}},
+     fit_with("#/a.ply"),
+     3,
+     {"a.ply"}},
+    {"GarbageObj", {{"a.obj", std::string("\x80\xff\x00\x01\x02\x03", 6)}}, fit_with("#/a.obj"), 3, {"a.obj"}},
+    {"GarbageGlb", {{"a.glb", "glTF nonsense"}}, fit_with("#/a.glb"), 3, {"a.glb"}},
+    {"TruncatedPly", {{"a.ply", binary_ply_header("4") + "123456"}}, fit_with("#/a.ply"), 3, {"a.ply"}},
+    {"BillionVertices",
+     {{"a.ply", binary_ply_header("1000000000") + "123456"}},
+     fit_with("#/a.ply"),
+     3,
+     {"a.ply", "1000000000"}},
+    {"BillionVerticesOff",
+     {{"a.off", "OFF\n1000000000 1 0\n0 0 0\n"}},
+     fit_with("#/a.off"),
+     3,
+     {"a.off", "1000000000"}},
+    {"NotANumber", {{"a.obj", "v 0 nan 0\n" + tetrahedron}}, fit_with("#/a.obj"), 3, {"a.obj", "finite"}},
+    {"Infinite", {{"a.obj", "v 0 inf 0\n" + tetrahedron}}, fit_with("#/a.obj"), 3, {"a.obj", "finite"}},
+    {"IndexTooLarge", {{"a.obj", with_line(tetrahedron, "f 1 2 9")}}, fit_with("#/a.obj"), 3, {"a.obj", "9"}},
+    {"IndexZero", {{"a.obj", with_line(tetrahedron, "f 0 1 2")}}, fit_with("#/a.obj"), 3, {"a.obj"}},
+    {"IndexNegativeOff",
+     {{"a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 -2\n"}},
+     fit_with("#/a.off"),
+     3,
+     {"a.off", "-2"}},
+    {"NoFaces", {{"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"}}, fit_with("#/a.obj"), 3, {"a.obj", "no faces"}},
+    // Markers.
+    {"NoMarkerFile", {}, fit_with("#/good.obj", "#/absent.csv"), 3, {"absent.csv"}},
+    {"TwoMarkers",
+     {{"m.csv", "a,0,0,0,0,0,0\nb,1,0,0,1,0,0\n"}},
+     fit_with("#/good.obj", "#/m.csv"),
+     3,
+     {"m.csv", "2 usable", "3"}},
+    {"MarkerNotANumber",
+     {{"m.csv", four_markers + "e,x,0,0,1,0,0\n"}},
+     fit_with("#/good.obj", "#/m.csv"),
+     3,
+     {"m.csv", "6"}},
+    {"MarkerTooFewColumns",
+     {{"m.csv", four_markers + "e,0,0,0\n"}},
+     fit_with("#/good.obj", "#/m.csv"),
+     3,
+     {"m.csv", "6"}},
+    {"CoincidentMarkers",
+     {{"m.csv", four_markers + "e,0,0,0,0.5,0.5,0\n"}},
+     fit_with("#/good.obj", "#/m.csv"),
+     2,
+     {"a", "e", "same place"}},
+    {"MarkersOnALine",
+     {{"m.csv", "a,0,0,0,0,0,0\nb,0.5,0,0,0.5,0,0\nc,1,0,0,1,0,0\n"}},
+     fit_with("#/good.obj", "#/m.csv"),
+     2,
+     {"line"}},
+    {"UnequalNumbers",
+     {{"s.pts", "0 0 0\n"}, {"s.csv", "0,0,0\n1,0,0\n0,1,0\n0,0,1\n"}, {"t.csv", "0,0,0\n1,0,0\n0,1,0\n"}},
+     {"fit", "#/good.obj", "#/good.obj", "--markers", "#/s.csv", "#/t.csv", "-o", "#/out.obj"},
+     3,
+     {"4", "3"}},
+    // Arguments.
+    {"NoVerb", {}, {}, 1, {"subcommand"}},
+    {"UnknownVerb", {}, {"morf"}, 1, {"morf"}},
+    {"UnknownOption", {}, {"check", "#/good.obj", "--nonsense"}, 1, {"--nonsense"}},
+    {"NoFrames", {}, {"tween", "#/good.obj", "#/good.obj", "--frames", "0", "-o", "#/f_##.obj"}, 1, {"--frames"}},
+    {"AtTwo", {}, {"tween", "#/good.obj", "#/good.obj", "--at", "2", "-o", "#/f.obj"}, 1, {"--at"}},
+    {"AtNaN", {}, {"tween", "#/good.obj", "#/good.obj", "--at", "nan", "-o", "#/f.obj"}, 1, {"--at"}},
+    {"UnknownMethod",
+     {},
+     {"tween", "#/good.obj", "#/good.obj", "--method", "magic", "-o", "#/f_#.obj"},
+     1,
+     {"--method"}},
+    {"BadC1",
+     {},
+     {"tween", "#/good.obj", "#/good.obj", "--method", "dual", "--c1", "0.5", "-o", "#/f_#.obj"},
+     1,
+     {"c1"}},
+    {"OneMeshOfAPath", {}, {"tween", "#/good.obj", "#/good.obj", "-o", "#/f.obj"}, 1, {"--at", "f_####.obj"}},
+    {"APageOfOneShape", {}, {"tween", "#/good.obj", "#/good.obj", "--at", "0.5", "-o", "#/f.html"}, 1, {"f.html"}},
+    {"OtherConnectivity",
+     {{"b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"}},
+     {"tween", "#/good.obj", "#/b.obj", "-o", "#/f_#.obj"},
+     3,
+     {"connectivity", "b.obj"}},
+    {"UnknownOutput", {}, {"tween", "#/good.obj", "#/good.obj", "-o", "#/f.mp4"}, 1, {".mp4", ".glb"}},
+    {"OutputIsAFolder", {}, {"tween", "#/good.obj", "#/good.obj", "-o", "#"}, 1, {"folder"}},
+    {"OutputFolderAbsent", {}, {"tween", "#/good.obj", "#/good.obj", "-o", "#/no/f_#.obj"}, 3, {"no folder"}},
+    {"UnknownSample", {}, {"sample", "nobody", "-o", "#/s"}, 1, {"nobody", "bow"}},
+    {"TemplateWithoutMarkers",
+     {},
+     {"morph", "#/good.obj", "#/good.obj", "--template", "#/good.obj", "-o", "#/f_#.obj"},
+     1,
+     {"--markers-a"}},
+    {"MorphWithoutMarkers", {}, {"morph", "#/good.obj", "#/good.obj", "-o", "#/f_#.obj"}, 1, {"--markers"}},
+    {"RotateWithoutAnAxis",
+     {{"r.csv", "a,0,0,0,turn\nb,1,0,0,hold\nc,0,1,0,hold\nd,0,0,1,hold\n"}},
+     {"rotate", "#/good.obj", "--markers", "#/r.csv", "--axis", "0,0,0", "--centre", "0,0,0", "--angle", "30", "-o",
+      "#/out.obj"},
+     1,
+     {"axis"}},
+    {"RotateUnknownRole",
+     {{"r.csv", "a,0,0,0,spin\nb,1,0,0,hold\nc,0,1,0,hold\n"}},
+     {"rotate", "#/good.obj", "--markers", "#/r.csv", "--axis", "0,0,1", "--centre", "0,0,0", "--angle", "30", "-o",
+      "#/out.obj"},
+     3,
+     {"r.csv", "spin"}},
+    {"TruthOfAnotherLength",
+     {{"t.csv", "x,y,z\n0,0,0\n"}},
+     {"measure", "#/good.obj", "#/good.obj", "#/good.obj", "--truth", "#/t.csv"},
+     1,
+     {"truth"}},
+};
+
+void write(const std::filesystem::path& path, const std::string& contents) {
+    std::filesystem::create_directories(path.parent_path());
+    std::ofstream(path, std::ios::binary) << contents;
+}
+
+std::vector<std::string> in_folder(std::vector<std::string> arguments, const std::filesystem::path& folder) {
+    for (std::string& a : arguments)
+        if (a == "#" || a.starts_with("#/")) a.replace(0, 1, folder.string());
+    return arguments;
+}
+
+class BadInput : public testing::TestWithParam<Row> {};
+
+TEST_P(BadInput, IsToldAndLeavesNothing) {
+    const Row& row = GetParam();
+    const TemporaryFolder folder;
+    write(folder / "good.obj", tetrahedron);
+    write(folder / "markers.csv", four_markers);
+    for (const auto& [name, contents] : row.files) write(folder / name, contents);
+    const auto before = folder.files();
+    const Ran ran = run_program(in_folder(row.arguments, folder.path()));
+    EXPECT_EQ(ran.status, row.status) << ran.err;
+    EXPECT_EQ(ran.out, "") << "results alone go to standard output";
+    for (const std::string& word : row.says)
+        EXPECT_NE(ran.err.find(word), std::string::npos) << word << " in: " << ran.err;
+    EXPECT_EQ(folder.files(), before);
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, BadInput, testing::ValuesIn(rows), [](const auto& info) { return info.param.name; });
+
+// Unusual meshes that are told of, and still give a result.
+class Unusual : public testing::TestWithParam<Row> {};
+
+const std::vector<Row> unusual_rows = {
+    {"RepeatedVertex", {{"a.obj", with_line(tetrahedron, "f 1 1 2")}}, fit_with("#/a.obj"), 0, {"a.obj", "face 4"}},
+    {"NonManifoldEdge",
+     {{"a.obj",
+       "v 1 1 1\n" + with_line("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 2 4 3\nf 2 3 5\nf 3 4 5\nf 2 5 4", "f 2 3 1")}},
+     fit_with("#/a.obj"),
+     0,
+     {"a.obj", "three"}},
+    {"ZeroArea",
+     {{"a.obj",
+       with_line("v 0.5 0 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 2 4 3\nf 2 3 5\nf 3 4 5\nf 2 5 4", "f 1 2 3")}},
+     fit_with("#/a.obj"),
+     0,
+     {"a.obj", "area"}},
+    {"InsideOut",
+     {{"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 1 3 4\n"}},
+     fit_with("#/a.obj"),
+     0,
+     {"a.obj", "inside"}},
+    {"MarkerFarFromTheMesh",
+     {{"m.csv", four_markers + "far,0,0,9,0,0,0.5\n"}},
+     fit_with("#/good.obj", "#/m.csv"),
+     0,
+     {"far"}},
+    {"MissingMarkerSide",
+     {{"m.csv", four_markers + "gone,0,0,0.5,,,\n"}},
+     fit_with("#/good.obj", "#/m.csv"),
+     0,
+     {"gone"}},
+};
+
+TEST_P(Unusual, IsToldAndDone) {
+    const Row& row = GetParam();
+    const TemporaryFolder folder;
+    write(folder / "good.obj", tetrahedron);
+    write(folder / "markers.csv", four_markers);
+    for (const auto& [name, contents] : row.files) write(folder / name, contents);
+    const Ran ran = run_program(in_folder(row.arguments, folder.path()));
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    for (const std::string& word : row.says)
+        EXPECT_NE(ran.err.find(word), std::string::npos) << word << " in: " << ran.err;
+    EXPECT_TRUE(std::filesystem::exists(folder / "out.obj"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, Unusual, testing::ValuesIn(unusual_rows),
+                         [](const auto& info) { return info.param.name; });
+
+class NotWritable : public testing::Test {
+protected:
+    void SetUp() override {
+        write(folder_ / "good.obj", tetrahedron);
+        std::filesystem::create_directory(folder_ / "out");
+    }
+    std::vector<std::string> tween() const {
+        const std::string good = (folder_ / "good.obj").string();
+        return {"tween", good, good, "--method", "linear", "-o", (folder_ / "out" / "x.png").string()};
+    }
+    bool out_is_empty() const { return std::filesystem::is_empty(folder_ / "out"); }
+    TemporaryFolder folder_;
+};
+
+TEST_F(NotWritable, NoPermission) {
+    std::filesystem::permissions(folder_ / "out",
+                                 std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+    const Ran ran = run_program(tween(), [] {
+        if (geteuid() == 0 && (setgid(65534) != 0 || setuid(65534) != 0)) _exit(97); // root may write anywhere
+    });
+    EXPECT_NE(ran.status, 0);
+    EXPECT_TRUE(out_is_empty());
+}
+
+TEST_F(NotWritable, FileSizeLimit) { // stands for a full disk where nobody may mount one
+    const Ran ran = run_program(tween(), [] {
+        std::signal(SIGXFSZ, SIG_IGN);
+        const rlimit limit{4096, 4096};
+        setrlimit(RLIMIT_FSIZE, &limit);
+    });
+    EXPECT_EQ(ran.status, 3) << ran.err;
+    EXPECT_NE(ran.err.find("x.png"), std::string::npos) << ran.err;
+    EXPECT_TRUE(out_is_empty());
+}
+
+TEST_F(NotWritable, FullDisk) {
+    const auto out = folder_ / "out";
+    if (mount("tmpfs", out.c_str(), "tmpfs", 0, "size=4k") != 0) {
+        std::printf("no right to mount a small disk here: FileSizeLimit stands for it\n");
+        return;
+    }
+    const Ran ran = run_program(tween());
+    const bool empty = out_is_empty();
+    umount(out.c_str());
+    EXPECT_EQ(ran.status, 3) << ran.err;
+    EXPECT_NE(ran.err.find("space"), std::string::npos) << ran.err;
+    EXPECT_TRUE(empty);
+}
+
+TEST(Interrupt, DuringTheFitLeavesNothing) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(run_program({"sample", "bow", "-o", folder.path().string(), "--quiet"}).status, 0);
+    const auto before = folder.files();
+    const auto file = [&](const char* name) { return (folder / name).string(); };
+    const Ran ran = run_program({"morph", file("bow_source.ply"), file("bow_target.ply"), "--markers",
+                                 file("bow_markers.csv"), "--fit", "paper", "--rounds", "100000", "--threshold",
+                                 "1e-300", "-o", file("x.glb"), "-o", file("x.png"), "--report", file("r.json")},
+                                {}, 1.5);
+    EXPECT_EQ(ran.status, 130) << ran.err;
+    EXPECT_NE(ran.err.find("stopped"), std::string::npos) << ran.err;
+    EXPECT_EQ(folder.files(), before);
+}
+
+} // namespace
