@@ -1,6 +1,6 @@
 #include "inputs.h"
 
-#include "version.h"
+#include "meshtween/core/version.h"
 
 #include "meshtween/core/error.h"
 #include "meshtween/core/parallel.h"
@@ -147,7 +147,7 @@ void write_path(const Mesh& from, const Points& to, PathFlags flags, const std::
 }
 
 Json new_report(const std::string& verb) {
-    return {{"program", "meshtween"}, {"version", meshtween_version}, {"verb", verb}};
+    return {{"program", "meshtween"}, {"version", meshtween::version()}, {"verb", verb}};
 }
 
 void finish_report(Json& report, const std::string& file, std::chrono::steady_clock::time_point start) {

@@ -1,7 +1,7 @@
 // meshtween: morph one 3D shape into another, from the command line.
 #include "console.h"
 #include "inputs.h"
-#include "version.h"
+#include "meshtween/core/version.h"
 
 #include "meshtween/core/error.h"
 #include "meshtween/core/parallel.h"
@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
     CLI::App app{
         "meshtween morphs one 3D shape into another of similar build.\n"
         "Exit status: 0 done, 1 wrong arguments, 2 the computation failed, 3 a bad file, 130 stopped by Ctrl-C."};
-    app.set_version_flag("--version", meshtween_version);
+    app.set_version_flag("--version", meshtween::version());
     app.require_subcommand(1);
     app.fallthrough();
     app.footer(

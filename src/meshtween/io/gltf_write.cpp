@@ -253,7 +253,7 @@ std::string mesh_glb(const Mesh& mesh, const GltfMorph& morph, const std::string
     const auto moved = [&](const Points& positions) -> Points { return positions.rowwise() - origin; };
 
     Glb glb;
-    glb.root["asset"] = {{"version", "2.0"}, {"generator", "meshtween " MESHTWEEN_VERSION}};
+    glb.root["asset"] = {{"version", "2.0"}, {"generator", std::string("meshtween ") + version()}};
     const auto positions = gathered(moved(mesh.positions), vertices.vertices);
     const auto normals = gathered(shading_normals(mesh.positions, mesh.triangles), vertices.vertices);
     json primitive = {{"mode", 4}, {"material", 0}};
