@@ -33,6 +33,6 @@ void add_measure(CLI::App& app, const Common& common) {
         const Points truth = a->truth.empty() ? Points() : read_points(a->truth);
         MarkerPairs markers;
         if (!a->markers.empty()) markers = load_markers(a->markers, source, target, console);
-        fmt::print("{}\n", to_json(measure(source, fitted, target, truth, markers.pairs)).dump(2));
+        fmt::print("{}\n", to_json(measure(source, fitted, target, truth, markers.pairs, common.seed)).dump(2));
     });
 }

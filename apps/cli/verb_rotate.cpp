@@ -2,6 +2,7 @@
 
 #include "meshtween/core/error.h"
 #include "meshtween/fit/rotate.h"
+#include "meshtween/io/rotation_markers.h"
 
 #include <fmt/format.h>
 

@@ -4,6 +4,7 @@
 #include "meshtween/core/mesh.h"
 #include "meshtween/io/markers.h"
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -32,8 +33,8 @@ struct Quality {
 };
 
 // `truth`: n x 3, where each vertex should be, empty if not known; `markers`: pairs to score, empty for none. Throws
-// Error(argument) where the meshes do not belong together.
+// `seed`: of the sample points. Error(argument) where the meshes do not belong together.
 Quality measure(const Mesh& source, const Mesh& fitted, const Mesh& target, const Points& truth = {},
-                std::span<const MarkerPair> markers = {});
+                std::span<const MarkerPair> markers = {}, std::uint32_t seed = 12345);
 
 } // namespace meshtween

@@ -1,0 +1,163 @@
+// The symmetric Dirichlet energy: Smith and Schaefer, "Bijective Parameterization with Free Boundaries", 2015.
+#include "meshtween/fit/quality.h"
+
+#include "meshtween/core/error.h"
+#include "meshtween/core/parallel.h"
+#include "meshtween/fit/markers.h"
+#include "meshtween/geometry/measure.h"
+#include "meshtween/search/closest_point.h"
+#include "meshtween/search/self_intersections.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace meshtween {
+namespace {
+
+constexpr int sample_count = 100000;
+
+// Points spread evenly over the surface, the same for the same seed.
+Points surface_samples(const Mesh& mesh, std::uint32_t seed) {
+    std::vector<double> cumulative;
+    double total = 0;
+    for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t)
+        cumulative.push_back(total += double_area_normal(mesh.positions, mesh.triangles, t).norm());
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> unit(0, 1);
+    Points points(sample_count, 3);
+    for (Eigen::Index i = 0; i < points.rows(); ++i) {
+        const auto found = std::lower_bound(cumulative.begin(), cumulative.end(), unit(random) * total);
+        const auto t = static_cast<int>(std::min(found - cumulative.begin(), std::ssize(cumulative) - 1));
+        const double a = std::sqrt(unit(random)), b = unit(random);
+        points.row(i) = position(mesh.positions, mesh.triangles, {t, {1 - a, a * (1 - b), a * b}});
+    }
+    return points;
+}
+
+std::vector<double> distances(const Points& points, const ClosestPointIndex& surface, double scale) {
+    const std::vector<ClosestPoint> closest = surface.closest(points);
+    std::vector<double> result;
+    result.reserve(closest.size());
+    for (const ClosestPoint& c : closest) result.push_back(std::sqrt(c.squared_distance) * scale);
+    return result;
+}
+
+void count_flips(const Mesh& fitted, const Mesh& target, const ClosestPointIndex& surface, Quality& quality) {
+    Points centres(fitted.triangles.rows(), 3);
+    for (Eigen::Index t = 0; t < centres.rows(); ++t)
+        centres.row(t) = (fitted.positions.row(fitted.triangles(t, 0)) + fitted.positions.row(fitted.triangles(t, 1)) +
+                          fitted.positions.row(fitted.triangles(t, 2))) /
+                         3;
+    const std::vector<ClosestPoint> closest = surface.closest(centres);
+    const double d = diagonal(target.positions), tiny = 1e-14 * d * d;
+    double flipped_area = 0, area = 0;
+    for (Eigen::Index t = 0; t < centres.rows(); ++t) {
+        const Point n = double_area_normal(fitted.positions, fitted.triangles, t);
+        const Point m =
+            double_area_normal(target.positions, target.triangles, closest[static_cast<std::size_t>(t)].where.triangle);
+        quality.degenerate += n.norm() < tiny;
+        area += n.norm();
+        if (n.dot(m) >= 0) continue;
+        ++quality.flipped;
+        flipped_area += n.norm();
+    }
+    quality.flipped_area_percent = area > 0 ? 100 * flipped_area / area : 0;
+}
+
+// Edges of a triangle in its own plane, as the columns of a 2 x 2 matrix.
+Eigen::Matrix2d planar_edges(const Points& positions, const Triangles& triangles, Eigen::Index t) {
+    const Point a = positions.row(triangles(t, 0)), e = positions.row(triangles(t, 1)) - a,
+                f = positions.row(triangles(t, 2)) - a;
+    const Point x = e.norm() > 0 ? Point(e / e.norm()) : Point(0, 0, 0);
+    Eigen::Matrix2d edges;
+    edges << e.norm(), f.dot(x), 0, (f - f.dot(x) * x).norm();
+    return edges;
+}
+
+// s1^2 + s2^2 + 1/s1^2 + 1/s2^2 of each face's map with area before and after.
+std::vector<double> symmetric_dirichlet(const Mesh& source, const Mesh& fitted) {
+    constexpr double least = 1e-12; // of a singular value, so that a collapsed face counts but stays finite
+    std::vector<double> result;
+    for (Eigen::Index t = 0; t < source.triangles.rows(); ++t) {
+        const Eigen::Matrix2d before = planar_edges(source.positions, source.triangles, t);
+        const Eigen::Matrix2d after = planar_edges(fitted.positions, fitted.triangles, t);
+        if (before.determinant() <= 0) continue;
+        const Eigen::Matrix2d map = after * before.inverse();
+        const double sum = map.squaredNorm(), product = std::abs(map.determinant());
+        const double s1 = std::sqrt((sum + std::sqrt(std::max(0.0, sum * sum - 4 * product * product))) / 2);
+        const double larger = std::max(s1, least), smaller = std::max(s1 > 0 ? product / s1 : 0, least);
+        result.push_back(larger * larger + smaller * smaller + 1 / (larger * larger) + 1 / (smaller * smaller));
+    }
+    return result;
+}
+
+long cuts(const Mesh& mesh) {
+    return std::ssize(self_intersections(mesh.positions, mesh.triangles));
+}
+
+void require_same_mesh(const Mesh& source, const Mesh& fitted, const Points& truth) {
+    if (source.positions.rows() != fitted.positions.rows() || source.triangles.rows() != fitted.triangles.rows() ||
+        source.triangles != fitted.triangles)
+        throw Error(
+            ErrorKind::argument,
+            fmt::format("the fitted mesh ({} vertices, {} triangles) is not the source's ({}, {}); measure needs the "
+                        "same vertices and faces in the same order",
+                        fitted.positions.rows(), fitted.triangles.rows(), source.positions.rows(),
+                        source.triangles.rows()));
+    if (truth.rows() != 0 && truth.rows() != source.positions.rows())
+        throw Error(ErrorKind::argument,
+                    fmt::format("the truth has {} rows; it needs one for each of the source's {} vertices",
+                                truth.rows(), source.positions.rows()));
+}
+
+} // namespace
+
+Statistics statistics(std::vector<double> values) {
+    Statistics s;
+    if (values.empty()) return s;
+    std::sort(values.begin(), values.end());
+    for (const double v : values) s.mean += v, s.rms += v * v;
+    const auto count = static_cast<double>(values.size());
+    s.mean /= count;
+    s.rms = std::sqrt(s.rms / count);
+    const auto at = [&](double q) { return values[static_cast<std::size_t>(q * (count - 1))]; };
+    s.median = at(0.5), s.p95 = at(0.95), s.p99 = at(0.99), s.max = values.back();
+    return s;
+}
+
+Quality measure(const Mesh& source, const Mesh& fitted, const Mesh& target, const Points& truth,
+                std::span<const MarkerPair> markers, std::uint32_t seed) {
+    require_same_mesh(source, fitted, truth);
+    const double percent = 100 / diagonal(target.positions);
+    const ClosestPointIndex on_target(target), on_fitted(fitted);
+
+    Quality q;
+    q.vertices = fitted.positions.rows();
+    q.triangles = fitted.triangles.rows();
+    const std::vector<double> at_vertices = distances(fitted.positions, on_target, percent);
+    for (const double d : at_vertices) q.eq7 += d * d * 1e-4; // percent to parts
+    q.vertex_to_target = statistics(at_vertices);
+    q.fitted_to_target = statistics(distances(surface_samples(fitted, seed), on_target, percent));
+    q.target_to_fitted = statistics(distances(surface_samples(target, seed), on_fitted, percent));
+    count_flips(fitted, target, on_target, q);
+    q.cuts = cuts(fitted), q.cuts_source = cuts(source), q.cuts_target = cuts(target);
+    q.symmetric_dirichlet = statistics(symmetric_dirichlet(source, fitted));
+    if (truth.rows() > 0) {
+        std::vector<double> errors;
+        for (Eigen::Index i = 0; i < truth.rows(); ++i)
+            errors.push_back((truth.row(i) - fitted.positions.row(i)).norm() * percent);
+        q.truth_error = statistics(errors);
+    }
+    if (!markers.empty()) {
+        std::vector<double> errors;
+        for (const Marker& m : place_markers(markers, source))
+            errors.push_back((position(fitted.positions, fitted.triangles, m.source) - m.target).norm() * percent);
+        q.marker_error = statistics(errors);
+    }
+    return q;
+}
+
+} // namespace meshtween
