@@ -14,6 +14,7 @@ namespace {
 // A bar that bends: no polynomial in u.
 Morph bending(const Points& bar, double angle) {
     return {[=](double u) -> Points { return u * angle < 1e-6 ? bar : test::bent(bar, u * angle); },
+            {},
             [] { return SolveReport{}; }};
 }
 

@@ -31,8 +31,10 @@ Morph dual_morph(const Mesh& from, const Points& to, const MorphOptions& options
     GaussSeidelResult middle = gauss_seidel(coordinates, (s + t) / 2, neighbours, colouring(neighbours),
                                             solver_options(options, from.positions), progress);
     const SolveReport report = middle.report;
-    return {[=, c = std::move(middle.positions)](double u) { return placed(motion, quadratic(s, c, t, u), u); },
-            [report] { return report; }};
+    const auto at = [=, c = std::move(middle.positions)](const auto& own, double whole) {
+        return placed(motion, quadratic(s, c, t, own), whole);
+    };
+    return {[at](double u) { return at(u, u); }, at, [report] { return report; }};
 }
 
 Morph dual_as_printed_morph(const Mesh& from, const Points& to, const MorphOptions& options) {
@@ -51,15 +53,15 @@ Morph dual_as_printed_morph(const Mesh& from, const Points& to, const MorphOptio
     state->coordinates_from = modified_laplacian(from.positions, state->neighbours, options.c1, options.c2);
     state->coordinates_to = modified_laplacian(to, state->neighbours, options.c1, options.c2);
     state->solver = solver_options(options, from.positions);
-    return {[state](double u) -> Points {
-                const Points start = (1 - u) * state->from + u * state->to;
-                GaussSeidelResult solved =
-                    gauss_seidel(blended_coordinates(state->coordinates_from, state->coordinates_to, u), start,
-                                 state->neighbours, state->colours, state->solver);
-                const std::lock_guard lock(state->mutex);
-                if (solved.report.sweeps >= state->report.sweeps) state->report = solved.report;
-                return std::move(solved.positions);
-            },
+    const auto at = [state](const Eigen::VectorXd& u, double) -> Points {
+        const Points start = state->from + u.asDiagonal() * (state->to - state->from);
+        GaussSeidelResult solved = gauss_seidel(blended_coordinates(state->coordinates_from, state->coordinates_to, u),
+                                                start, state->neighbours, state->colours, state->solver);
+        const std::lock_guard lock(state->mutex);
+        if (solved.report.sweeps >= state->report.sweeps) state->report = solved.report;
+        return std::move(solved.positions);
+    };
+    return {[at, n = to.rows()](double u) { return at(Eigen::VectorXd::Constant(n, u), u); }, at,
             [state] {
                 const std::lock_guard lock(state->mutex);
                 return state->report;

@@ -36,8 +36,8 @@ Morph laplacian_morph(const Mesh& from, const Points& to) {
     for (Eigen::Index i = 0; i < right.rows(); ++i) right.row(i) *= static_cast<double>(top.neighbours[i].size());
     Points middle = solve_held(graph_laplacian(top.neighbours), std::move(right), components(top),
                                (from.positions + to) / 2); // Eq. 10
-    return {[s = from.positions, c = std::move(middle), to](double u) { return quadratic(s, c, to, u); },
-            [] { return SolveReport{}; }};
+    const auto at = [s = from.positions, c = std::move(middle), to](const auto& u) { return quadratic(s, c, to, u); };
+    return {at, [at](const Eigen::VectorXd& u, double) { return at(u); }, [] { return SolveReport{}; }};
 }
 
 } // namespace meshtween

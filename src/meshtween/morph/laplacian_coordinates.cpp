@@ -13,13 +13,17 @@ Point direction(const Point& delta, double length) {
 } // namespace
 
 Points blended_coordinates(const Points& from, const Points& to, double u) {
+    return blended_coordinates(from, to, Eigen::VectorXd::Constant(from.rows(), u));
+}
+
+Points blended_coordinates(const Points& from, const Points& to, const Eigen::VectorXd& u) {
     Points blended(from.rows(), 3);
     parallel_for(from.rows(), [&](Eigen::Index i) {
         const Point s = from.row(i), t = to.row(i);
         const double length_s = s.norm(), length_t = t.norm();
-        const Point unit = (1 - u) * direction(s, length_s) + u * direction(t, length_t); // Eq. 9a
-        const double length = (1 - u) * length_s + u * length_t;                          // Eq. 9b
-        blended.row(i) = length * unit;                                                   // Eq. 9c
+        const Point unit = (1 - u[i]) * direction(s, length_s) + u[i] * direction(t, length_t); // Eq. 9a
+        const double length = (1 - u[i]) * length_s + u[i] * length_t;                          // Eq. 9b
+        blended.row(i) = length * unit;                                                         // Eq. 9c
     });
     return blended;
 }
@@ -37,6 +41,12 @@ Points middle_coordinates(const Points& from, const Points& to) {
 Points quadratic(const Points& from, const Points& middle, const Points& to, double u) {
     const double v = 1 - u;
     return v * v * from + 2 * u * v * middle + u * u * to;
+}
+
+Points quadratic(const Points& from, const Points& middle, const Points& to, const Eigen::VectorXd& u) {
+    const Eigen::ArrayXd v = 1 - u.array();
+    return v.square().matrix().asDiagonal() * from + (2 * u.array() * v).matrix().asDiagonal() * middle +
+           u.array().square().matrix().asDiagonal() * to;
 }
 
 } // namespace meshtween

@@ -36,7 +36,9 @@ struct MorphOptions {
 // A path of shapes: at(0) is `from`, at(1) is `to`, to rounding; dual_as_printed only to its solve's tolerance. Safe to
 // ask from several threads.
 struct Morph {
-    std::function<Points(double u)> at;  // u in 0..1
+    std::function<Points(double u)> at; // u in 0..1
+    // The same with a parameter a vertex (n, each in 0..1), and that of the whole for its rigid motion.
+    std::function<Points(const Eigen::VectorXd& own, double whole)> at_each;
     std::function<SolveReport()> report; // of the most laborious solve so far; no sweeps for methods without a solve
 };
 

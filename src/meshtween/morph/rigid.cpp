@@ -32,12 +32,19 @@ struct Hook {
     Eigen::Vector3d from, to; // from the host's centre to its own, in the host's frame
 };
 
+// The parameter of every vertex, triangle and patch, and of the rigid motion.
+struct Times {
+    Eigen::VectorXd vertices, triangles, patches;
+    double whole = 0;
+};
+
 struct Prepared {
     Points from, to;    // centred, the rigid motion taken out
     Points first, last; // as they were given
     Triangles triangles;
     RigidMotion motion;
     Turns turns;
+    std::vector<int> patch_of_triangle;
     Points back_01, back_12; // m x 3: edges of `to`, turned back by the triangle's rotation
     Corners weights;         // half cotangents
     Lists vertex_triangles;
@@ -115,16 +122,16 @@ double area_correction(const Prepared& s, int t, double u) {
 }
 
 // The right side: at each vertex the edges that its triangles want there, weighted.
-Points divergence(const Prepared& s, const Quaternions& rotation, double u) {
+Points divergence(const Prepared& s, const Quaternions& rotation, const Eigen::VectorXd& u) {
     std::vector<double> scale(rotation.size());
     parallel_for(s.triangles.rows(), [&](Eigen::Index t) {
-        scale[static_cast<std::size_t>(t)] = area_correction(s, static_cast<int>(t), u);
+        scale[static_cast<std::size_t>(t)] = area_correction(s, static_cast<int>(t), u[t]);
     });
     Points right(s.from.rows(), 3);
     parallel_for(s.from.rows(), [&](Eigen::Index i) {
         Eigen::Vector3d sum = Eigen::Vector3d::Zero();
         for (const int t : s.vertex_triangles[i]) {
-            const auto edge = local_edges(s, t, u);
+            const auto edge = local_edges(s, t, u[t]);
             const auto it = static_cast<std::size_t>(t);
             for (std::size_t k = 0; k < 3; ++k) {
                 const auto corner = static_cast<Eigen::Index>(k), before = (corner + 2) % 3;
@@ -143,14 +150,18 @@ void shift(Points& p, const std::vector<int>& vertices, const Point& by) {
 }
 
 // Each component came out of the solve at some place of its own.
-Points put_together(const Prepared& s, Points p, const Quaternions& patches, double u) {
+Points put_together(const Prepared& s, Points p, const Quaternions& patches, const Times& times) {
+    const auto straight = [&](Eigen::Index i) -> Point {
+        return s.from.row(i) + times.vertices[i] * (s.to.row(i) - s.from.row(i));
+    };
     if (!s.component_vertices.empty()) {
         const std::vector<int>& vertices = s.component_vertices[static_cast<std::size_t>(s.root)];
         Point off = Point::Zero();
-        for (const int i : vertices) off += (1 - u) * s.from.row(i) + u * s.to.row(i) - p.row(i);
+        for (const int i : vertices) off += straight(i) - p.row(i);
         shift(p, vertices, off / static_cast<double>(vertices.size()));
     }
     for (const Hook& hook : s.hooks) {
+        const double u = times.patches[hook.patches.own];
         const Eigen::Vector3d offset =
             patches[static_cast<std::size_t>(hook.patches.host)] * Eigen::Vector3d((1 - u) * hook.from + u * hook.to);
         const Point wanted = centre_of(p, s.triangles, hook.host_triangles) + offset.transpose();
@@ -158,16 +169,32 @@ Points put_together(const Prepared& s, Points p, const Quaternions& patches, dou
               wanted - centre_of(p, s.triangles, hook.own_triangles));
     }
     for (Eigen::Index i = 0; i < p.rows(); ++i)
-        if (s.isolated[static_cast<std::size_t>(i)]) p.row(i) = (1 - u) * s.from.row(i) + u * s.to.row(i);
+        if (s.isolated[static_cast<std::size_t>(i)]) p.row(i) = straight(i);
     return p;
 }
 
-Points shape_at(const Prepared& s, double u) {
-    if (u == 0) return s.first;
-    if (u == 1) return s.last;
-    const Quaternions patches = patch_rotations(s.turns, u);
-    const Points right = divergence(s, face_rotations(s.turns, patches, u), u);
-    return placed(s.motion, put_together(s, s.poisson.solve(right), patches, u), u);
+Times same_times(const Prepared& s, double u) {
+    return {Eigen::VectorXd::Constant(s.from.rows(), u), Eigen::VectorXd::Constant(s.triangles.rows(), u),
+            Eigen::VectorXd::Constant(s.turns.patch_count, u), u};
+}
+
+Times own_times(const Prepared& s, const Eigen::VectorXd& own, double whole) {
+    Times times{own, Eigen::VectorXd(s.triangles.rows()), Eigen::VectorXd::Zero(s.turns.patch_count), whole};
+    Eigen::VectorXd members = Eigen::VectorXd::Zero(s.turns.patch_count);
+    for (Eigen::Index t = 0; t < s.triangles.rows(); ++t) {
+        times.triangles[t] = (own[s.triangles(t, 0)] + own[s.triangles(t, 1)] + own[s.triangles(t, 2)]) / 3;
+        const int p = s.patch_of_triangle[static_cast<std::size_t>(t)];
+        times.patches[p] += times.triangles[t];
+        members[p] += 1;
+    }
+    times.patches.array() /= members.array();
+    return times;
+}
+
+Points shape_at(const Prepared& s, const Times& times) {
+    const Quaternions patches = patch_rotations(s.turns, times.patches);
+    const Points right = divergence(s, face_rotations(s.turns, patches, times.triangles), times.triangles);
+    return placed(s.motion, put_together(s, s.poisson.solve(right), patches, times), times.whole);
 }
 
 // One vertex of each component holds it in place: a 1 on its diagonal.
@@ -205,6 +232,7 @@ Morph rigid_morph(const Mesh& from, const Points& to, const MorphOptions& option
                                                  triangles,
                                                  motion,
                                                  turns(faces, parts, attached),
+                                                 parts.of_triangle,
                                                  {},
                                                  {},
                                                  std::move(weights),
@@ -214,7 +242,9 @@ Morph rigid_morph(const Mesh& from, const Points& to, const MorphOptions& option
                                                  root_component(parts),
                                                  {},
                                                  std::move(poisson)});
-    const Quaternions patch_end = patch_rotations(s->turns, 1), end = face_rotations(s->turns, patch_end, 1);
+    const Times last = same_times(*s, 1);
+    const Quaternions patch_end = patch_rotations(s->turns, last.patches);
+    const Quaternions end = face_rotations(s->turns, patch_end, last.triangles);
     s->back_01.resize(triangles.rows(), 3);
     s->back_12.resize(triangles.rows(), 3);
     parallel_for(triangles.rows(), [&](Eigen::Index t) {
@@ -231,7 +261,11 @@ Morph rigid_morph(const Mesh& from, const Points& to, const MorphOptions& option
     }
     s->hooks = hooks(parts, attached, patch_end, s->from, s->to, triangles);
     tell(1);
-    return {[s](double u) { return shape_at(*s, u); }, [] { return SolveReport{}; }};
+    return {[s](double u) { return u == 0   ? s->first
+                                   : u == 1 ? s->last
+                                            : shape_at(*s, same_times(*s, u)); },
+            [s](const Eigen::VectorXd& own, double whole) { return shape_at(*s, own_times(*s, own, whole)); },
+            [] { return SolveReport{}; }};
 }
 
 } // namespace meshtween

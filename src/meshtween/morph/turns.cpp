@@ -125,11 +125,12 @@ Turns turns(const FaceField& faces, const Patches& patches, const std::vector<At
 // Minimises the sum of weight |X_first M - X_second|^2 over 3 x 3 matrices X, M the relative rotation at u, with the
 // root's X given, and takes the rotations nearest to them. Row by row of X: unknowns are the transposed X, one below
 // the other, and the matrix has 3 x 3 blocks -weight M.
-Quaternions patch_rotations(const Turns& turns, double u) {
+Quaternions patch_rotations(const Turns& turns, const Eigen::VectorXd& u) {
     const Eigen::Index n = turns.patch_count;
     std::vector<Eigen::Triplet<double>> triplets;
     for (const PatchTurn& link : turns.links) {
-        const Eigen::Matrix3d m = exponential(u * link.rotation_vector).toRotationMatrix();
+        const Eigen::Matrix3d m =
+            exponential((u[link.first] + u[link.second]) / 2 * link.rotation_vector).toRotationMatrix();
         for (int i = 0; i < 3; ++i) {
             triplets.emplace_back(3 * link.first + i, 3 * link.first + i, link.weight);
             triplets.emplace_back(3 * link.second + i, 3 * link.second + i, link.weight);
@@ -140,7 +141,7 @@ Quaternions patch_rotations(const Turns& turns, double u) {
                     triplets.emplace_back(3 * link.second + j, 3 * link.first + i, -link.weight * m(i, j));
         }
     }
-    const Eigen::Matrix3d root = exponential(u * turns.root_vector).toRotationMatrix();
+    const Eigen::Matrix3d root = exponential(u[turns.root] * turns.root_vector).toRotationMatrix();
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(3 * n, 3);
     for (int i = 0; i < 3; ++i) {
         triplets.emplace_back(3 * turns.root + i, 3 * turns.root + i, 1);
@@ -156,13 +157,13 @@ Quaternions patch_rotations(const Turns& turns, double u) {
     return rotations;
 }
 
-Quaternions face_rotations(const Turns& turns, const Quaternions& patches, double u) {
+Quaternions face_rotations(const Turns& turns, const Quaternions& patches, const Eigen::VectorXd& u) {
     Quaternions rotations(turns.faces.size());
     parallel_for(static_cast<Eigen::Index>(turns.faces.size()), [&](Eigen::Index t) {
         const FaceTurn& face = turns.faces[static_cast<std::size_t>(t)];
         const auto seen_from = [&](std::size_t k) {
             return patches[static_cast<std::size_t>(face.patch[k])] *
-                   exponential(u * face.rotation_vector[k].cast<double>());
+                   exponential(u[t] * face.rotation_vector[k].cast<double>());
         };
         const Eigen::Quaterniond own = seen_from(0);
         Eigen::Vector4d sum = own.coeffs();

@@ -30,10 +30,10 @@ struct Turns {
 
 Turns turns(const FaceField& faces, const Patches& patches, const std::vector<Attachment>& attached);
 
-// The patches' rotations at u. N.
-Quaternions patch_rotations(const Turns& turns, double u);
+// The patches' rotations at their parameters u. N each.
+Quaternions patch_rotations(const Turns& turns, const Eigen::VectorXd& u);
 
-// The triangles' rotations at u, given those of the patches. m.
-Quaternions face_rotations(const Turns& turns, const Quaternions& patches, double u);
+// The triangles' rotations at their parameters u, given those of the patches. m each.
+Quaternions face_rotations(const Turns& turns, const Quaternions& patches, const Eigen::VectorXd& u);
 
 } // namespace meshtween
