@@ -20,7 +20,7 @@ struct FitOptions {
     FitMethod method = FitMethod::paper;
     RbfOptions warp;           // of the marker warp
     int max_rounds = 40;       // of smoothing and projection
-    double threshold = 1e-4;   // stop where sqrt(E / n), E of Eq. 7, falls under this
+    double threshold = 1e-4;   // stop where sqrt(E / n), E of Eq. 7 before a round's projection, falls under this
     double least_cosine = 0.3; // between a vertex normal and the target's normal where it may be projected
 };
 
@@ -30,13 +30,14 @@ struct FitResult {
     Points positions; // n x 3: the source's vertices on the target
     FitEnd end = FitEnd::out_of_rounds;
     int rounds = 0;
-    double error = 0;               // E of Eq. 7, in squared parts of the diagonal, summed over vertices
-    std::vector<double> history;    // sqrt(E / n) after each round, parts of the diagonal
+    double error = 0;               // E of Eq. 7 at the end, in squared parts of the diagonal, summed over vertices
+    std::vector<double> history;    // sqrt(E / n) of each round, parts of the diagonal, before its projection
     long refused_steps = 0;         // vertex moves shortened because they would have turned a triangle over
     std::vector<std::string> notes; // for people: what was unusual
 };
 
-// Throws Error(argument) for options out of range, Error(computation) for fewer than 3 markers or markers on one line.
+// Throws Error(argument) for options out of range, coordinates that are not finite and indices out of range,
+// Error(computation) for a mesh without area, fewer than 3 markers or markers that the warp cannot use (rbf.h).
 FitResult fit(const Mesh& source, const Mesh& target, std::span<const Marker> markers, const FitOptions& options = {},
               const Progress& progress = {});
 

@@ -170,13 +170,12 @@ RbfWarp warp(const Points& from, const Points& to, const RbfOptions& options, co
     check_input(from, to, options, names);
     const std::vector<Index> rows = distinct_rows(from, to, names);
     const Points c_raw = from(rows, Eigen::all), goals_raw = to(rows, Eigen::all);
-    const Point low = c_raw.colwise().minCoeff(), high = c_raw.colwise().maxCoeff();
-    const double extent = (high - low).norm();
 
     RbfWarp result;
     result.kernel = options.kernel;
-    result.origin = (low + high) / 2;
-    result.scale = extent > 0 ? 1 / extent : 1;
+    result.origin = c_raw.colwise().mean();
+    const double spread = std::sqrt((c_raw.rowwise() - result.origin).rowwise().squaredNorm().mean());
+    result.scale = spread > 0 ? 1 / (2 * spread) : 1; // a box would make smoothing depend on the axes
     result.centres = (c_raw.rowwise() - result.origin) * result.scale;
     const Points goals = (goals_raw.rowwise() - result.origin) * result.scale;
 

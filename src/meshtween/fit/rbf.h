@@ -18,7 +18,8 @@ struct RbfOptions {
     double smoothing = 0; // at least 0; stiffens the diagonal of Eq. 5, in normalised coordinates; 0 meets the points
 };
 
-// f(x) = x + sum_j lambda_j phi(x - c_j) + P(x), kept in coordinates where the points lie in a box of unit diagonal.
+// f(x) = x + sum_j lambda_j phi(x - c_j) + P(x), kept in coordinates where the points' centre is the
+// origin and their RMS distance from it 1/2.
 struct RbfWarp {
     Kernel kernel = Kernel::thin_plate;
     Points centres;                                                               // c_j, N x 3, normalised
