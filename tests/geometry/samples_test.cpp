@@ -5,6 +5,7 @@
 #include "meshtween/geometry/measure.h"
 #include "meshtween/geometry/surface_lookup.h"
 #include "meshtween/geometry/topology.h"
+#include "meshtween/search/self_intersections.h"
 
 #include <gtest/gtest.h>
 
@@ -48,6 +49,7 @@ void expect_sound(const Mesh& mesh, int genus) {
     for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
         smallest = std::min(smallest, triangle_area(mesh.positions, mesh.triangles, f));
     EXPECT_GT(smallest, 1e-7 * length * length);
+    EXPECT_TRUE(self_intersections(mesh.positions, mesh.triangles).empty());
 }
 
 // The source's triangles on the truth must give the target's body: its volume, its area, its extent.

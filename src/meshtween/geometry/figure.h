@@ -2,10 +2,8 @@
 // place of each of its points is known in all others.
 #pragma once
 
+#include "meshtween/geometry/landmarks.h"
 #include "meshtween/geometry/remesh.h"
-
-#include <string>
-#include <vector>
 
 namespace meshtween {
 
@@ -47,10 +45,6 @@ Points figure(const Points& rest, const FigureBuild& build, const FigurePose& po
 Mesh figure_at_rest(const RemeshOptions& options, double cell, const Point& offset);
 
 // 40 named places on the body at rest, `_L` on its left.
-struct Landmarks {
-    std::vector<std::string> names;
-    Points points;
-};
 Landmarks figure_landmarks();
 
 } // namespace meshtween

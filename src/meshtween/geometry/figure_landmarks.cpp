@@ -8,12 +8,6 @@ namespace {
 
 using namespace figure_rest;
 
-struct Place {
-    const char* name;
-    Point inside, direction;
-    bool pair;
-};
-
 std::vector<Place> places() {
     const Point up(0, 1, 0), down(0, -1, 0), ahead(0, 0, 1), back(0, 0, -1), out(1, 0, 0);
     const Point palm = on_arm(0, 1, 0) - on_arm(0, 0, 0), leg = (ankle - hip).normalized();
@@ -56,20 +50,7 @@ Mesh figure_at_rest(const RemeshOptions& options, double cell, const Point& offs
 }
 
 Landmarks figure_landmarks() {
-    const Field field = body();
-    Landmarks marks;
-    std::vector<Point> points;
-    for (const Place& place : places()) {
-        const Point left = shoot(field, place.inside, place.direction, 0.3);
-        marks.names.push_back(place.name + std::string(place.pair ? "_L" : ""));
-        points.push_back(left);
-        if (!place.pair) continue;
-        marks.names.push_back(place.name + std::string("_R"));
-        points.push_back({-left[0], left[1], left[2]});
-    }
-    marks.points.resize(static_cast<Eigen::Index>(points.size()), 3);
-    for (std::size_t i = 0; i < points.size(); ++i) marks.points.row(static_cast<Eigen::Index>(i)) = points[i];
-    return marks;
+    return landmarks(body(), places(), 0.3);
 }
 
 } // namespace meshtween

@@ -1,0 +1,159 @@
+// A pair of stylised heads: one sculpted body, and the space around it bulged, squeezed and turned for the other.
+#include "meshtween/geometry/isosurface.h"
+#include "meshtween/geometry/landmarks.h"
+#include "meshtween/geometry/remesh.h"
+#include "meshtween/geometry/sample_makers.h"
+#include "meshtween/geometry/shapes.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace meshtween {
+namespace {
+
+void add_skull(Sculpture& head) {
+    head.add(ellipsoid({0, 0.10, -0.04}, {0.330, 0.400, 0.425}), 0.1);
+    head.add(ellipsoid({0, -0.15, 0.140}, {0.240, 0.365, 0.268}), 0.16);
+    head.add_pair(ellipsoid({0.155, -0.300, 0.07}, {0.075, 0.110, 0.150}, 20), 0.15);
+    head.add(ellipsoid({0, -0.440, 0.285}, {0.080, 0.060, 0.080}), 0.13);
+    head.add_pair(ellipsoid({0.165, -0.105, 0.255}, {0.075, 0.060, 0.085}), 0.11);
+    head.add(round_cone({0, -0.98, -0.10}, 0.25, {0, -0.25, -0.06}, 0.205), 0.14);
+    head.add(ellipsoid({0, -1.02, -0.09}, {0.46, 0.15, 0.30}), 0.25);
+    head.floor(-1.05, 0.06);
+}
+
+void add_face(Sculpture& head) {
+    head.add_pair(ellipsoid({0.112, 0.072, 0.316}, {0.105, 0.036, 0.058}), 0.13);
+    head.carve_pair(ellipsoid({0.128, -0.005, 0.430}, {0.080, 0.050, 0.060}), 0.07);
+    head.add_pair(ellipsoid({0.126, -0.012, 0.312}, {0.066, 0.052, 0.056}), 0.025);
+    head.add(round_cone({0, 0.070, 0.372}, 0.028, {0, -0.125, 0.462}, 0.040), 0.075);
+    head.add_pair(ellipsoid({0.044, -0.142, 0.425}, {0.032, 0.028, 0.042}), 0.035);
+    head.add_pair(ellipsoid({0.034, -0.258, 0.378}, {0.062, 0.020, 0.042}), 0.030);
+    head.add(ellipsoid({0, -0.302, 0.376}, {0.068, 0.026, 0.044}), 0.030);
+    head.add_pair(ellipsoid({0.318, -0.025, -0.05}, {0.036, 0.128, 0.080}, -14), 0.07);
+    head.carve_pair(ellipsoid({0.372, -0.015, -0.035}, {0.032, 0.080, 0.042}, -14), 0.03);
+}
+
+void add_hair(Sculpture& head) {
+    head.add(ellipsoid({0, 0.185, -0.095}, {0.352, 0.368, 0.430}, -12), 0.02);
+    head.add(ellipsoid({0, 0.14, -0.545}, {0.150, 0.145, 0.125}), 0.05);
+}
+
+Sculpture head_body() {
+    Sculpture head;
+    add_skull(head);
+    add_face(head);
+    add_hair(head);
+    return head;
+}
+
+std::vector<Place> head_places() {
+    const Point up(0, 1, 0), down(0, -1, 0), ahead(0, 0, 1), back(0, 0, -1), out(1, 0, 0);
+    return {
+        {"crown", {0, 0.2, -0.05}, up},
+        {"forehead", {0, 0.17, 0.1}, ahead},
+        {"nasion", {0, 0.045, 0.2}, ahead},
+        {"nose_tip", {0, -0.125, 0.3}, ahead},
+        {"nose_base", {0, -0.185, 0.2}, ahead},
+        {"upper_lip", {0, -0.258, 0.2}, ahead},
+        {"mouth", {0, -0.281, 0.2}, ahead},
+        {"lower_lip", {0, -0.302, 0.2}, ahead},
+        {"chin", {0, -0.440, 0.2}, {0, -0.2, 1}},
+        {"throat", {0, -0.62, 0}, ahead},
+        {"nape", {0, -0.5, -0.1}, back},
+        {"bun", {0, 0.14, -0.5}, back},
+        {"bun_top", {0, 0.14, -0.545}, {0, 1, -0.1}},
+        {"base_front", {0, -0.99, 0}, ahead},
+        {"base_back", {0, -0.99, -0.1}, back},
+        {"base", {0, -0.95, -0.1}, down},
+        {"eye", {0.126, -0.012, 0.25}, ahead, true},
+        {"eye_inner", {0.062, -0.012, 0.2}, ahead, true},
+        {"eye_outer", {0.190, -0.012, 0.15}, ahead, true},
+        {"brow", {0.125, 0.075, 0.2}, ahead, true},
+        {"cheekbone", {0.165, -0.105, 0.2}, {0.5, 0, 1}, true},
+        {"nose_wing", {0.044, -0.142, 0.40}, {1, 0, 0.35}, true},
+        {"mouth_corner", {0.085, -0.281, 0.2}, ahead, true},
+        {"jaw", {0.155, -0.310, 0.05}, {1, -0.3, 0}, true},
+        {"ear_top", {0.322, 0.03, -0.06}, {0.1, 1, -0.2}, true},
+        {"ear_lobe", {0.322, -0.08, -0.04}, {0.1, -1, 0.2}, true},
+        {"temple", {0.1, 0.10, 0.10}, out, true},
+        {"base_side", {0.1, -0.99, -0.09}, out, true},
+    };
+}
+
+// Moves what lies near `middle` by `move` and stretches it about that point.
+struct Bulge {
+    Point middle;
+    double reach;
+    Point move{0, 0, 0}, stretch{0, 0, 0};
+    bool pair = false;
+};
+
+Point bulged(const Point& p, const std::vector<Bulge>& bulges) {
+    Point moved = p;
+    for (const Bulge& b : bulges)
+        for (const double side : {1.0, -1.0}) {
+            if (side < 0 && !b.pair) continue;
+            const Point q(side * p[0], p[1], p[2]), away = q - b.middle;
+            const Point d =
+                std::exp(-away.squaredNorm() / (b.reach * b.reach)) * (b.move + b.stretch.cwiseProduct(away));
+            moved += Point(side * d[0], d[1], d[2]);
+        }
+    return moved;
+}
+
+// Slender: a finer jaw and nose, fuller lips, larger eyes.
+const std::vector<Bulge> slender{
+    {{0, -0.36, 0.15}, 0.25, {0, 0.01, 0}, {-0.12, 0, 0}},
+    {{0, -0.05, 0.43}, 0.12, {0, 0, -0.012}, {-0.15, 0, 0}},
+    {{0, -0.70, -0.08}, 0.25, {0, 0, 0}, {-0.20, 0, -0.16}},
+    {{0.126, -0.012, 0.33}, 0.09, {0, 0.004, 0.006}, {0.10, 0.20, 0}, true},
+    {{0, -0.280, 0.40}, 0.07, {0, 0, 0.006}, {0, 0.25, 0}},
+};
+
+// Rugged: a heavy brow and jaw, a long nose, large ears, a thick neck, the bun drawn in to the hair.
+const std::vector<Bulge> rugged{
+    {{0, -0.40, 0.20}, 0.24, {0, -0.030, 0.025}, {0.26, 0.10, 0}},
+    {{0, -0.07, 0.44}, 0.13, {0, -0.020, 0.045}, {0.22, 0.15, 0}},
+    {{0.12, 0.075, 0.36}, 0.12, {0, -0.008, 0.028}, {0, 0, 0}, true},
+    {{0.33, -0.03, -0.05}, 0.16, {0.022, 0, 0}, {0.20, 0.20, 0.20}, true},
+    {{0, -0.70, -0.08}, 0.28, {0, 0, 0}, {0.22, 0, 0.16}},
+    {{0, 0.15, -0.55}, 0.22, {0, 0.02, 0.07}, {-0.30, -0.30, -0.25}},
+    {{0, 0.30, 0.20}, 0.30, {0, -0.03, -0.035}, {0, 0, 0}},
+    {{0, -0.280, 0.40}, 0.08, {0, -0.006, -0.010}, {0.18, -0.20, 0}},
+    {{0.17, -0.20, 0.22}, 0.13, {-0.012, 0, -0.022}, {0, 0, 0}, true},
+};
+
+Points slender_head(const Points& rest) {
+    Points moved(rest.rows(), 3);
+    for (Eigen::Index i = 0; i < rest.rows(); ++i) moved.row(i) = bulged(rest.row(i), slender);
+    return moved;
+}
+
+// Turned to its left and nodding, the base held.
+Points rugged_head(const Points& rest) {
+    constexpr double degree = std::numbers::pi / 180;
+    const Point pivot(0, -0.55, -0.08);
+    Points moved(rest.rows(), 3);
+    for (Eigen::Index i = 0; i < rest.rows(); ++i) {
+        const double share = smooth_step(-1.0, -0.25, rest(i, 1));
+        Points p(1, 3);
+        p.row(0) = bulged(rest.row(i), rugged) - pivot;
+        moved.row(i) = turn(turn(p, {1, 0, 0}, 8 * degree * share), {0, 1, 0}, 22 * degree * share).row(0) + pivot;
+    }
+    return 1.06 * moved;
+}
+
+} // namespace
+
+Sample head_sample() {
+    const Field body = head_body();
+    const Box box{{-0.6, -1.2, -0.8}, {0.6, 0.7, 0.65}}, other{{-0.617, -1.21, -0.814}, {0.6, 0.7, 0.65}};
+    const Landmarks marks = landmarks(body, head_places(), 0.8);
+    return pair_of(
+        {remesh(isosurface(body, box, 0.03), body, {.deviation = 0.0010, .shortest = 0.010, .longest = 0.045}),
+         remesh(isosurface(body, other, 0.031), body, {.deviation = 0.0007, .shortest = 0.008, .longest = 0.040}),
+         slender_head, rugged_head, marks.names, marks.points});
+}
+
+} // namespace meshtween
