@@ -7,6 +7,7 @@ export interface Model {
     scene: Group;
     mesh: Mesh;
     box: Box3; // holds all shapes, in the scene's coordinates
+    outline: Float32Array; // x, y, z of some thousand points of all shapes: what a view should hold
     vertexCount: number;
     triangleCount: number;
     setU(u: number): void;
@@ -40,7 +41,7 @@ export async function loadModel(glb: ArrayBuffer): Promise<Model> {
     return {
         scene,
         mesh,
-        box: boxOf(mesh, toScene),
+        ...extentOf(mesh, toScene),
         vertexCount: mesh.geometry.getAttribute('position').count,
         triangleCount: (mesh.geometry.index?.count ?? 0) / 3,
         // The base's weight is what the targets' leave of 1: its own.
@@ -57,18 +58,26 @@ function verticesOf(mesh: Mesh, toScene: Matrix4): Float64Array {
     return result;
 }
 
-// The box around all shapes. Reading morph targets one at a time is exact: they are the path's own shapes.
-function boxOf(mesh: Mesh, toScene: Matrix4): Box3 {
+// The box around all shapes, and points of them. One target at a time is exact: they are the path's own shapes.
+function extentOf(mesh: Mesh, toScene: Matrix4): Pick<Model, 'box' | 'outline'> {
     const base = mesh.geometry.getAttribute('position');
     const targets = (mesh.geometry.morphAttributes['position'] ?? []) as BufferAttribute[];
+    const stride = Math.ceil((base.count * (targets.length + 1)) / 20000);
     const box = new Box3();
+    const outline: number[] = [];
     const point = new Vector3(), offset = new Vector3();
+    let seen = 0;
+    const add = () => {
+        box.expandByPoint(point.applyMatrix4(toScene));
+        if (seen++ % stride === 0) outline.push(point.x, point.y, point.z);
+    };
     for (let i = 0; i < base.count; ++i) {
-        box.expandByPoint(point.fromBufferAttribute(base, i));
+        point.fromBufferAttribute(base, i);
+        add();
         for (const target of targets) {
             point.fromBufferAttribute(base, i).add(offset.fromBufferAttribute(target, i));
-            box.expandByPoint(point);
+            add();
         }
     }
-    return box.applyMatrix4(toScene);
+    return { box, outline: new Float32Array(outline) };
 }

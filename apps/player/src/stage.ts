@@ -30,11 +30,15 @@ export function makeStage(canvas: HTMLCanvasElement, bar: HTMLElement, model: Mo
     root.add(model.scene);
     const wire = wireframeOf(model.mesh);
     scene.add(root);
-    const half = size.multiplyScalar(scale / 2);
-    const ground = addGround(scene, -half.y);
+    const ground = addGround(scene, (-size.y * scale) / 2);
+    const outline = pointsOf(model.outline).map((p) => p.sub(centre).multiplyScalar(scale));
     addLights(scene);
 
     const camera = new PerspectiveCamera(28, 1, 0.01, 100);
+    const fill = new DirectionalLight(0xeef2fb, 0.55); // comes along with the viewer: no side stays black
+    fill.position.set(0.5, 0.3, 1);
+    camera.add(fill, fill.target);
+    scene.add(camera);
     const controls = new OrbitControls(camera, canvas);
     controls.enableDamping = !matchMedia('(prefers-reduced-motion: reduce)').matches;
     controls.dampingFactor = 0.12;
@@ -54,7 +58,7 @@ export function makeStage(canvas: HTMLCanvasElement, bar: HTMLElement, model: Mo
     };
     const resetView = () => {
         controls.target.set(0, 0, 0);
-        camera.position.copy(viewpoint(camera, half, bar.offsetHeight / Math.max(1, canvas.clientHeight)));
+        camera.position.copy(viewpoint(camera, outline, bar.offsetHeight / Math.max(1, canvas.clientHeight)));
         controls.update();
         redraw();
     };
@@ -91,33 +95,34 @@ export function makeStage(canvas: HTMLCanvasElement, bar: HTMLElement, model: Mo
     };
 }
 
-// Where the whole box is seen, whatever the window's shape. `covered`: the part of its height under the bar.
-function viewpoint(camera: PerspectiveCamera, half: Vector3, covered: number): Vector3 {
+function pointsOf(coordinates: Float32Array): Vector3[] {
+    return Array.from({ length: coordinates.length / 3 }, (_, i) => new Vector3().fromArray(coordinates, 3 * i));
+}
+
+// From where all points are seen, whatever the window's shape. `covered`: the part of its height under the bar.
+function viewpoint(camera: PerspectiveCamera, points: Vector3[], covered: number): Vector3 {
     const towards = new Vector3().setFromSphericalCoords(1, ((90 - elevation) * Math.PI) / 180, (azimuth * Math.PI) / 180);
     const right = new Vector3(0, 1, 0).cross(towards).normalize(), up = towards.clone().cross(right);
-    const tall = Math.tan((camera.fov * Math.PI) / 360);
-    const usable = tall * Math.max(0.3, 0.92 - covered - 0.12), wide = tall * camera.aspect * 0.8;
+    const half = Math.tan((camera.fov * Math.PI) / 360);
+    const tall = half * Math.max(0.3, 0.86 - covered), wide = half * camera.aspect * 0.84; // margins
     let distance = 0.5;
-    for (let corner = 0; corner < 8; ++corner) {
-        const p = new Vector3(corner & 1 ? half.x : -half.x, corner & 2 ? half.y : -half.y, corner & 4 ? half.z : -half.z);
-        const out = Math.max(Math.abs(p.dot(right)) / wide, Math.abs(p.dot(up)) / usable);
+    for (const p of points) {
+        const out = Math.max(Math.abs(p.dot(right)) / wide, Math.abs(p.dot(up)) / tall);
         distance = Math.max(distance, p.dot(towards) + out);
     }
     return towards.multiplyScalar(distance);
 }
 
 function addLights(scene: Scene): void {
-    scene.add(new HemisphereLight(0xe6edf7, 0xb5a99c, 0.95));
-    const key = shadowLight(1.7, 1024, 9);
+    scene.add(new HemisphereLight(0xe6edf7, 0xb9aea2, 1.15));
+    const key = shadowLight(2.0, 1024, 9);
     key.color.set(0xfff6ea);
     key.position.set(-2.4, 4.1, 2.6);
     const above = shadowLight(0.35, 256, 10); // its coarse map is the soft dark under the shape
     above.position.set(0, 5, 0.01);
-    const fill = new DirectionalLight(0xe8eefc, 0.35);
-    fill.position.set(3, 0.6, 2.5);
     const rim = new DirectionalLight(0xdfe9ff, 0.9);
     rim.position.set(2.6, 1.6, -3);
-    scene.add(key, above, fill, rim);
+    scene.add(key, above, rim);
 }
 
 function shadowLight(intensity: number, side: number, blur: number): DirectionalLight {
