@@ -1,19 +1,11 @@
 #include "meshtween/geometry/measure.h"
 
+#include "support/shapes.h"
+
 #include <gtest/gtest.h>
 
 namespace meshtween {
 namespace {
-
-Mesh unit_cube() {
-    Mesh mesh;
-    mesh.positions.resize(8, 3);
-    for (int i = 0; i < 8; ++i) mesh.positions.row(i) << (i & 1), (i >> 1 & 1), (i >> 2 & 1);
-    mesh.triangles.resize(12, 3);
-    mesh.triangles << 0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5,
-        3, 7, 5;
-    return mesh;
-}
 
 TEST(Measure, Cube) {
     const Mesh cube = unit_cube();

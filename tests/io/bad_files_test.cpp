@@ -214,7 +214,7 @@ TEST_F(BadFiles, DamagedFilesNeverCrash) {
                     bytes.insert(std::min(at, bytes.size()), bytes.substr(below(bytes.size()), below(30)));
                     break;
                 default:
-                    bytes.resize(std::max<std::size_t>(1, bytes.size() - below(40)));
+                    bytes.resize(bytes.size() - below(std::min<std::size_t>(40, bytes.size())));
                     break;
                 }
                 if (bytes.empty()) bytes = " ";
