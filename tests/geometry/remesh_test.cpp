@@ -3,7 +3,8 @@
 #include "meshtween/geometry/halfedges.h"
 #include "meshtween/geometry/isosurface.h"
 #include "meshtween/geometry/measure.h"
-#include "meshtween/geometry/topology.h"
+
+#include "support/closed.h"
 
 #include <gtest/gtest.h>
 
@@ -21,16 +22,6 @@ double ball(const Point& p) {
 }
 double ring(const Point& p) {
     return std::hypot(std::hypot(p[0], p[2]) - 1, p[1]) - 0.3;
-}
-
-long euler(const Mesh& mesh) {
-    const auto edges = static_cast<long>(topology(mesh.positions.rows(), mesh.triangles).edges.size());
-    return mesh.positions.rows() - edges + mesh.triangles.rows();
-}
-
-bool closed(const Mesh& mesh) {
-    const Topology t = topology(mesh.positions.rows(), mesh.triangles);
-    return std::all_of(t.edges.begin(), t.edges.end(), [](const Edge& e) { return e.count == 2; });
 }
 
 double smallest_angle(const Mesh& mesh) {

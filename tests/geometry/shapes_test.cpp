@@ -1,7 +1,8 @@
 #include "meshtween/geometry/shapes.h"
 
 #include "meshtween/geometry/measure.h"
-#include "meshtween/geometry/topology.h"
+
+#include "support/closed.h"
 
 #include <gtest/gtest.h>
 
@@ -13,16 +14,6 @@ namespace meshtween {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-long euler(const Mesh& mesh) {
-    const auto edges = static_cast<long>(topology(mesh.positions.rows(), mesh.triangles).edges.size());
-    return mesh.positions.rows() - edges + mesh.triangles.rows();
-}
-
-bool closed(const Mesh& mesh) {
-    const Topology t = topology(mesh.positions.rows(), mesh.triangles);
-    return std::all_of(t.edges.begin(), t.edges.end(), [](const Edge& e) { return e.count == 2; });
-}
 
 TEST(Shapes, SphereIsRound) {
     const Mesh ball = sphere(3);

@@ -44,7 +44,7 @@ double arm_share(const Point& p) {
     return smooth_step(-0.055, 0.095, t) * (1 - smooth_step(0.056, 0.098 + 0.22 * far, away));
 }
 double collar_share(const Point& p, double arm) {
-    const double trunk = smooth_step(0.02, 0.16, p[0]) * smooth_step(1.20, 1.40, p[1]) *
+    const double trunk = smooth_step(0.02, 0.16, p[0]) * smooth_step(1.30, 1.43, p[1]) *
                          (1 - smooth_step(1.44, 1.52, p[1] - 0.3 * p[0]));
     return 1 - (1 - arm) * (1 - trunk);
 }
