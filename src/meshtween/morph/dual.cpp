@@ -11,7 +11,6 @@
 #include "meshtween/morph/rigid_motion.h"
 
 #include <memory>
-#include <mutex>
 
 namespace meshtween {
 namespace {
@@ -42,8 +41,7 @@ Morph dual_as_printed_morph(const Mesh& from, const Points& to, const MorphOptio
         Points from, to, coordinates_from, coordinates_to;
         Lists neighbours, colours;
         GaussSeidelOptions solver;
-        std::mutex mutex; // guards the report
-        SolveReport report;
+        MostLaborious report;
     };
     auto state = std::make_shared<State>();
     state->from = from.positions;
@@ -57,15 +55,11 @@ Morph dual_as_printed_morph(const Mesh& from, const Points& to, const MorphOptio
         const Points start = state->from + u.asDiagonal() * (state->to - state->from);
         GaussSeidelResult solved = gauss_seidel(blended_coordinates(state->coordinates_from, state->coordinates_to, u),
                                                 start, state->neighbours, state->colours, state->solver);
-        const std::lock_guard lock(state->mutex);
-        if (solved.report.sweeps >= state->report.sweeps) state->report = solved.report;
+        state->report.add(solved.report);
         return std::move(solved.positions);
     };
     return {[at, n = to.rows()](double u) { return at(Eigen::VectorXd::Constant(n, u), u); }, at,
-            [state] {
-                const std::lock_guard lock(state->mutex);
-                return state->report;
-            }};
+            [state] { return state->report.get(); }};
 }
 
 } // namespace meshtween

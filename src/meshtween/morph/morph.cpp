@@ -15,9 +15,13 @@ struct Named {
     MorphMethod method;
     std::string_view name;
 };
-constexpr std::array named{Named{MorphMethod::rigid, "rigid"}, Named{MorphMethod::linear, "linear"},
-                           Named{MorphMethod::laplacian, "laplacian"}, Named{MorphMethod::dual, "dual"},
-                           Named{MorphMethod::dual_as_printed, "dual-as-printed"}};
+constexpr std::array named{Named{MorphMethod::rigid, "rigid"},
+                           Named{MorphMethod::linear, "linear"},
+                           Named{MorphMethod::laplacian, "laplacian"},
+                           Named{MorphMethod::dual, "dual"},
+                           Named{MorphMethod::dual_as_printed, "dual-as-printed"},
+                           Named{MorphMethod::edges, "edges"},
+                           Named{MorphMethod::dual_mesh, "dual-mesh"}};
 
 void require_sound(const Mesh& from, const Points& to, const MorphOptions& options) {
     if (from.positions.rows() != to.rows())
@@ -38,6 +42,16 @@ void require_sound(const Mesh& from, const Points& to, const MorphOptions& optio
 }
 
 } // namespace
+
+void MostLaborious::add(const SolveReport& report) {
+    const std::lock_guard lock(mutex_);
+    if (report.sweeps >= report_.sweeps) report_ = report;
+}
+
+SolveReport MostLaborious::get() const {
+    const std::lock_guard lock(mutex_);
+    return report_;
+}
 
 MorphMethod morph_method(std::string_view name) {
     std::vector<std::string_view> names;
@@ -77,6 +91,10 @@ Morph morph(const Mesh& from, const Points& to, const MorphOptions& options, con
         return dual_morph(from, to, options, progress);
     case MorphMethod::dual_as_printed:
         return dual_as_printed_morph(from, to, options);
+    case MorphMethod::edges:
+        return edges_morph(from, to);
+    case MorphMethod::dual_mesh:
+        return dual_mesh_morph(from, to, options);
     }
     throw Error(ErrorKind::argument, "no such method");
 }

@@ -17,9 +17,12 @@ enum class MorphMethod {
     laplacian,       // the coordinates of Eq. 8 blended by Eq. 9 (Alexa 2003), one vertex a component held
     dual,            // Eq. 9-12 with rigid motion taken out, both shapes centred and the ends exact
     dual_as_printed, // Eq. 9-12 to the letter: depends on where the origin is
+    edges,           // edge lengths and dihedral angles (references 17 and 18)
+    dual_mesh,       // Hu, Liu and Wang 2007 (reference 20): slow, to compare with
 };
 
-// The methods' names on the command line: "rigid", "linear", "laplacian", "dual", "dual-as-printed".
+// The methods' names on the command line: "rigid", "linear", "laplacian", "dual", "dual-as-printed", "edges",
+// "dual-mesh".
 MorphMethod morph_method(std::string_view name); // throws Error(argument) naming those that exist
 std::string_view name_of(MorphMethod method);
 const std::vector<MorphMethod>& morph_methods();

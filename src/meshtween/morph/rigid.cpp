@@ -197,17 +197,6 @@ Points shape_at(const Prepared& s, const Times& times) {
     return placed(s.motion, put_together(s, s.poisson.solve(right), patches, times), times.whole);
 }
 
-// One vertex of each component holds it in place: a 1 on its diagonal.
-SparseMatrix held(SparseMatrix matrix, const std::vector<int>& component) {
-    int next = 0;
-    for (std::size_t i = 0; i < component.size(); ++i)
-        if (component[i] == next) {
-            matrix.coeffRef(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) += 1;
-            ++next;
-        }
-    return matrix;
-}
-
 } // namespace
 
 Morph rigid_morph(const Mesh& from, const Points& to, const MorphOptions& options, const Progress& progress) {

@@ -1,14 +1,10 @@
 // Baran, Vlasic, Grinspun and Popovic, Semantic Deformation Transfer, 2009, and Lipman, Sorkine, Levin and Cohen-Or,
 // Linear Rotation-Invariant Coordinates for Meshes, 2005: the rotation of a patch is known only up to whole turns, but
-// against its neighbour it is small, so those relative rotations are interpolated and then put together, in least
-// squares where they disagree around a loop (Singer, Angular Synchronization, 2011).
+// against its neighbour it is small, so those relative rotations are interpolated and then put together.
 #include "meshtween/morph/turns.h"
 
-#include "meshtween/core/error.h"
 #include "meshtween/core/parallel.h"
-
-#include <Eigen/SVD>
-#include <Eigen/SparseCholesky>
+#include "meshtween/morph/rotation_graph.h"
 
 #include <algorithm>
 #include <cmath>
@@ -78,13 +74,6 @@ FaceTurn face_turn(const FaceField& faces, const Patches& patches, const std::ve
     return turn;
 }
 
-Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& m) {
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Eigen::Vector3d sign(1, 1, 1);
-    if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) sign[2] = -1;
-    return svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
-}
-
 } // namespace
 
 Turns turns(const FaceField& faces, const Patches& patches, const std::vector<Attachment>& attached) {
@@ -122,39 +111,15 @@ Turns turns(const FaceField& faces, const Patches& patches, const std::vector<At
     return result;
 }
 
-// Minimises the sum of weight |X_first M - X_second|^2 over 3 x 3 matrices X, M the relative rotation at u, with the
-// root's X given, and takes the rotations nearest to them. Row by row of X: unknowns are the transposed X, one below
-// the other, and the matrix has 3 x 3 blocks -weight M.
 Quaternions patch_rotations(const Turns& turns, const Eigen::VectorXd& u) {
-    const Eigen::Index n = turns.patch_count;
-    std::vector<Eigen::Triplet<double>> triplets;
+    std::vector<RotationLink> links;
     for (const PatchTurn& link : turns.links) {
-        const Eigen::Matrix3d m =
-            exponential((u[link.first] + u[link.second]) / 2 * link.rotation_vector).toRotationMatrix();
-        for (int i = 0; i < 3; ++i) {
-            triplets.emplace_back(3 * link.first + i, 3 * link.first + i, link.weight);
-            triplets.emplace_back(3 * link.second + i, 3 * link.second + i, link.weight);
-            for (int j = 0; j < 3; ++j) // second > first need not hold for attachments: the lower triangle is chosen
-                if (link.first > link.second)
-                    triplets.emplace_back(3 * link.first + i, 3 * link.second + j, -link.weight * m(i, j));
-                else
-                    triplets.emplace_back(3 * link.second + j, 3 * link.first + i, -link.weight * m(i, j));
-        }
+        const double own = (u[link.first] + u[link.second]) / 2;
+        links.push_back(
+            {link.first, link.second, exponential(own * link.rotation_vector).toRotationMatrix(), link.weight});
     }
-    const Eigen::Matrix3d root = exponential(u[turns.root] * turns.root_vector).toRotationMatrix();
-    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(3 * n, 3);
-    for (int i = 0; i < 3; ++i) {
-        triplets.emplace_back(3 * turns.root + i, 3 * turns.root + i, 1);
-        right.row(3 * turns.root + i) = root.col(i).transpose();
-    }
-    Eigen::SparseMatrix<double> matrix(3 * n, 3 * n);
-    matrix.setFromTriplets(triplets.begin(), triplets.end());
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
-    if (solver.info() != Eigen::Success) throw Error(ErrorKind::computation, "the patches' rotations have no solution");
-    const Eigen::MatrixXd x = solver.solve(right);
-    Quaternions rotations;
-    for (Eigen::Index p = 0; p < n; ++p) rotations.emplace_back(nearest_rotation(x.middleRows<3>(3 * p).transpose()));
-    return rotations;
+    return synchronised(turns.patch_count, links,
+                        {{turns.root, exponential(u[turns.root] * turns.root_vector).toRotationMatrix()}});
 }
 
 Quaternions face_rotations(const Turns& turns, const Quaternions& patches, const Eigen::VectorXd& u) {

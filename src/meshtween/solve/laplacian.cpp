@@ -92,4 +92,14 @@ SparseMatrix cotangent_laplacian(Eigen::Index vertex_count, const Triangles& tri
     return assemble(vertex_count, triplets);
 }
 
+SparseMatrix held(SparseMatrix laplacian, const std::vector<int>& component) {
+    int next = 0;
+    for (std::size_t i = 0; i < component.size(); ++i)
+        if (component[i] == next) {
+            laplacian.coeffRef(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) += 1;
+            ++next;
+        }
+    return laplacian;
+}
+
 } // namespace meshtween

@@ -38,4 +38,8 @@ Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> edge_lengths(const Poi
 SparseMatrix cotangent_laplacian(Eigen::Index vertex_count, const Triangles& triangles,
                                  const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>& weights);
 
+// The same with 1 added to the diagonal of the first vertex of each component (as numbered by components()). It is
+// regular; where the right side adds up to nought over a component, that vertex comes out as nought.
+SparseMatrix held(SparseMatrix laplacian, const std::vector<int>& component);
+
 } // namespace meshtween

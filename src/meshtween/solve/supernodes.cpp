@@ -8,6 +8,7 @@
 #include <metis.h>
 
 #include <algorithm>
+#include <mutex>
 #include <numeric>
 
 namespace meshtween {
@@ -48,6 +49,8 @@ Ints dissection(Graph& graph) {
     idx_t n = static_cast<idx_t>(graph.first.size()) - 1;
     std::vector<idx_t> order(static_cast<std::size_t>(n)), inverse(order.size());
     std::iota(order.begin(), order.end(), 0);
+    static std::mutex one; // METIS draws its random numbers from one place for all threads
+    const std::lock_guard lock(one);
     if (n > 1 && !graph.neighbours.empty() &&
         METIS_NodeND(&n, graph.first.data(), graph.neighbours.data(), nullptr, nullptr, order.data(), inverse.data()) !=
             METIS_OK)
