@@ -159,6 +159,16 @@ TEST(Preview, WhatIsNotFiniteOrEmptyIsLeftOut) {
     EXPECT_NO_THROW(contact_sheet({{"", Mesh{}, {}}}, {.tile = 40}));
 }
 
+TEST(Preview, CancelledTheOtherShapesAreLeftOut) {
+    const std::vector<Tile> tiles{{"", sphere(1), {}}, {"", sphere(1), Points::Zero(1, 3)}};
+    int calls = 0;
+    const auto once = [&](double, std::string_view) { return ++calls == 1; };
+    const Image whole = contact_sheet(tiles, {.tile = 80}), half = contact_sheet(tiles, {.tile = 80}, once);
+    EXPECT_EQ(whole.width, half.width);
+    EXPECT_EQ(color_at(whole, whole.width / 4, 40), color_at(half, half.width / 4, 40));
+    EXPECT_NE(color_at(whole, whole.width * 3 / 4, 40), color_at(half, half.width * 3 / 4, 40));
+}
+
 TEST(Preview, RefusesWhatIsNoSheet) {
     EXPECT_THROW(contact_sheet({}), Error);
     EXPECT_THROW(contact_sheet({{"", sphere(1), {}}}, {.tile = 0}), Error);

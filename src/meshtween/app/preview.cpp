@@ -154,7 +154,8 @@ std::vector<float> ground_shadow(const Shape& shape, const Layout& layout) {
             places.push_back({ground, Eigen::Vector3d::UnitY()});
             pixels.push_back(y * layout.width + x);
         }
-    const auto pixel_count = static_cast<std::size_t>(layout.width * (layout.height + layout.caption));
+    const std::size_t pixel_count =
+        static_cast<std::size_t>(layout.width) * static_cast<std::size_t>(layout.height + layout.caption);
     std::vector<float> dome(pixel_count, 0.0F), shadow(pixel_count, 0.0F);
     if (places.empty()) return shadow;
     const auto lit = light(places, shape.positions, shape.triangles, camera.axes);
@@ -166,7 +167,8 @@ std::vector<float> ground_shadow(const Shape& shape, const Layout& layout) {
     for (std::size_t i = 0; i < places.size(); ++i) {
         const double x = (pixels[i] % layout.width + 0.5) / layout.width;
         const double edge = std::clamp(std::min(x, 1 - x) / 0.15, 0.0, 1.0); // fades before the tile ends
-        const double y = (layout.height + layout.caption - pixels[i] / layout.width - 0.5) / layout.caption;
+        const int rows_below = layout.height + layout.caption - pixels[i] / layout.width;
+        const double y = (rows_below - 0.5) / layout.caption;
         const double fade = edge * edge * (3 - 2 * edge) * std::clamp(y / 0.6, 0.0, 1.0);
         const auto at = static_cast<std::size_t>(pixels[i]);
         shadow[at] = static_cast<float>(fade) * (0.28F * (1 - lit[i].key) + 0.62F * dome[at]);
@@ -283,7 +285,7 @@ void check(const std::vector<Tile>& tiles, const SheetOptions& options) {
 
 } // namespace
 
-Image contact_sheet(const std::vector<Tile>& tiles, const SheetOptions& options) {
+Image contact_sheet(const std::vector<Tile>& tiles, const SheetOptions& options, const Progress& progress) {
     check(tiles, options);
     const std::vector<Shape> shapes = grounded(tiles);
     const Layout layout = lay_out(shapes, options);
@@ -299,6 +301,7 @@ Image contact_sheet(const std::vector<Tile>& tiles, const SheetOptions& options)
     Canvas canvas = backdrop(image.width, image.height);
     std::vector<Samples> samples(tiles.size());
     for (std::size_t i = 0; i < tiles.size(); ++i) {
+        if (!keep_going(progress, static_cast<double>(i) / static_cast<double>(tiles.size()), "drawing")) break;
         Samples seen = draw_shape(canvas, image.width, left(i), top(i), tiles[i].mesh, shapes[i], layout);
         if (tiles[i].marks.rows() > 0) samples[i] = std::move(seen);
     }
@@ -306,7 +309,7 @@ Image contact_sheet(const std::vector<Tile>& tiles, const SheetOptions& options)
     parallel_for(canvas.size(),
                  [&](std::ptrdiff_t i) { image.rgb[static_cast<std::size_t>(i)] = srgb_byte(canvas.data()[i]); });
     for (std::size_t i = 0; i < tiles.size(); ++i) {
-        if (tiles[i].marks.rows() > 0)
+        if (tiles[i].marks.rows() > 0 && samples[i].width > 0)
             draw_marks(image, left(i), top(i), (tiles[i].marks.rowwise() - shapes[i].origin) * shapes[i].unit,
                        samples[i], layout);
         draw_caption(image, left(i), top(i), tiles[i].caption, layout);

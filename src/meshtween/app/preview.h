@@ -2,6 +2,7 @@
 #pragma once
 
 #include "meshtween/core/mesh.h"
+#include "meshtween/core/progress.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -31,9 +32,10 @@ struct SheetOptions {
 
 // All tiles at one scale and from one side, so that they can be compared: each shape stands on the ground in the middle
 // of its tile. Only where sizes differ more than fourfold (other units) is each shown as large as the largest. Insides
-// of open or inverted surfaces are red. The same bits for any number of threads. Throws Error(argument): no tiles, a
-// size out of range, a picture of more than 100 million pixels.
-Image contact_sheet(const std::vector<Tile>& tiles, const SheetOptions& options = {});
+// of open or inverted surfaces are red. The same bits for any number of threads. Cancelled, it is the sheet with the
+// shapes drawn until then. Throws Error(argument): no tiles, a size out of range, a picture of more than 100 million
+// pixels.
+Image contact_sheet(const std::vector<Tile>& tiles, const SheetOptions& options = {}, const Progress& progress = {});
 
 void write_png(const Image& image, const std::filesystem::path& path); // through write_whole
 
