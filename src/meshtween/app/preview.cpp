@@ -4,6 +4,7 @@
 #include "meshtween/app/raster.h"
 #include "meshtween/app/stage.h"
 #include "meshtween/app/text.h"
+#include "meshtween/core/color.h"
 #include "meshtween/core/error.h"
 #include "meshtween/core/parallel.h"
 #include "meshtween/geometry/measure.h"
@@ -19,14 +20,9 @@
 namespace meshtween {
 namespace {
 
-float linear(float srgb) {
-    return srgb <= 0.04045F ? srgb / 12.92F : std::pow((srgb + 0.055F) / 1.055F, 2.4F);
-}
-
 std::uint8_t srgb_byte(float linear_value) {
-    const float v = std::clamp(linear_value, 0.0F, 1.0F);
-    const float s = v <= 0.0031308F ? v * 12.92F : 1.055F * std::pow(v, 1 / 2.4F) - 0.055F;
-    return static_cast<std::uint8_t>(std::lround(s * 255));
+    const float shown = srgb_from_linear(std::clamp(linear_value, 0.0F, 1.0F));
+    return static_cast<std::uint8_t>(std::lround(shown * 255));
 }
 
 // Highlights bend towards white instead of breaking off; the lower half stays as it is.
@@ -48,7 +44,7 @@ Eigen::Vector3f albedo_at(const Mesh& mesh, const Eigen::RowVector3i& corners, c
     if (mesh.colors.rows() != mesh.positions.rows()) return {0.70F, 0.625F, 0.555F}; // clay
     Eigen::Vector3f color(0, 0, 0);
     for (int c = 0; c < 3; ++c) color += shares[c] * mesh.colors.row(corners[c]).head<3>().transpose();
-    return color.unaryExpr([](float v) { return linear(std::clamp(v, 0.0F, 1.0F)); });
+    return color.unaryExpr([](float v) { return linear_from_srgb(std::clamp(v, 0.0F, 1.0F)); });
 }
 
 // The surface under a sample. Normals face the eye; where the triangle itself does not, its inside is seen.
@@ -181,8 +177,8 @@ using Canvas = Eigen::Array<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 Canvas backdrop(int width, int height) {
     Canvas canvas(static_cast<Eigen::Index>(width) * height, 3);
-    const Eigen::Array3f top(linear(0.945F), linear(0.943F), linear(0.937F)),
-        bottom(linear(0.895F), linear(0.888F), linear(0.876F));
+    const Eigen::Array3f top(linear_from_srgb(0.945F), linear_from_srgb(0.943F), linear_from_srgb(0.937F)),
+        bottom(linear_from_srgb(0.895F), linear_from_srgb(0.888F), linear_from_srgb(0.876F));
     for (int y = 0; y < height; ++y) {
         const float down = static_cast<float>(y) / static_cast<float>(height);
         canvas.middleRows(static_cast<Eigen::Index>(y) * width, width).rowwise() =

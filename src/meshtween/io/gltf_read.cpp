@@ -3,6 +3,8 @@
 // the mesh as it was modelled.
 #include "meshtween/io/formats.h"
 #include "meshtween/io/gltf_data.h"
+
+#include "meshtween/core/color.h"
 #include "meshtween/io/text.h"
 
 #include <Eigen/Geometry>
@@ -25,7 +27,7 @@ constexpr std::size_t most_vertices = 100'000'000; // a small file can ask for a
 // glTF's vertex colours are linear, those of all other mesh formats are what a screen shows. A colour that was a byte
 // before it was written comes back as that byte.
 float shown_color(double linear) {
-    const double srgb = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+    const double srgb = srgb_from_linear(linear);
     const double byte = std::round(srgb * 255);
     return static_cast<float>(std::abs(srgb * 255 - byte) < 1e-3 ? byte / 255 : srgb);
 }

@@ -1,6 +1,7 @@
 // glTF 2.0 specification (Khronos, 2021): 3.7.2.2 morph targets, 3.11 animations, 4 the GLB container.
 #include "meshtween/io/gltf_write.h"
 
+#include "meshtween/core/color.h"
 #include "meshtween/core/error.h"
 #include "meshtween/core/parallel.h"
 #include "meshtween/core/version.h"
@@ -169,11 +170,6 @@ Rows<float, 3> gathered(const Points& rows, const std::vector<int>& map, const R
     return result;
 }
 
-// glTF's vertex colours are linear, those of all other mesh formats are what a screen shows.
-float linear(float srgb) {
-    return srgb <= 0.04045F ? srgb / 12.92F : std::pow((srgb + 0.055F) / 1.055F, 2.4F);
-}
-
 void append_texcoords_and_colors(Glb& glb, json& attributes, const Mesh& mesh, const Unseamed& vertices) {
     const auto count = static_cast<Eigen::Index>(vertices.vertices.size());
     if (mesh.texcoords.rows() > 0) {
@@ -188,7 +184,7 @@ void append_texcoords_and_colors(Glb& glb, json& attributes, const Mesh& mesh, c
         for (Eigen::Index i = 0; i < count; ++i) {
             const auto color = mesh.colors.row(vertices.vertices[static_cast<std::size_t>(i)]);
             rgba.row(i) = color.cwiseMax(0).cwiseMin(1);
-            for (int c = 0; c < 3; ++c) rgba(i, c) = linear(rgba(i, c));
+            for (int c = 0; c < 3; ++c) rgba(i, c) = linear_from_srgb(rgba(i, c));
         }
         attributes["COLOR_0"] = append(glb, rgba, array_buffer);
     }
