@@ -209,44 +209,41 @@ void add(const std::string& name, Run run, Arguments... arguments) {
     benchmark::RegisterBenchmark(name.c_str(), run, arguments...)->Iterations(1)->Unit(benchmark::kMillisecond);
 }
 
+void register_peers(const std::string& all) {
+    add(all + "embree/ordered", [](benchmark::State& s) { with_embree(s, scene().ordered); });
+    add(all + "embree/random", [](benchmark::State& s) { with_embree(s, scene().random); });
+    add(all + "embree/moved", [](benchmark::State& s) { with_embree(s, scene().moved); });
+    add(all + "cgal/ordered", [](benchmark::State& s) { with_cgal(s, scene().ordered); });
+    add(all + "cgal/random", [](benchmark::State& s) { with_cgal(s, scene().random); });
+}
+
+void register_ours(const std::string& all, const search::NamedSearch& path) {
+    const std::string ours = all + path.name + "/", title = std::string(path.name) + ", ";
+    const auto add_ours = [&](const std::string& name, auto run) {
+        add(ours + name, [path, run](benchmark::State& state) {
+            search::use_search(path.search);
+            run(state);
+            search::use_search(nullptr);
+        });
+    };
+    add_ours("ordered", [](benchmark::State& s) { batch(s, scene().ordered, {}); });
+    add_ours("random", [](benchmark::State& s) { batch(s, scene().random, {}); });
+    add_ours("ordered_one_by_one", [](benchmark::State& s) { one_by_one(s, scene().ordered, {}); });
+    add_ours("moved_one_by_one", [](benchmark::State& s) { one_by_one(s, scene().moved, {}); });
+    add_ours("moved_hints", [](benchmark::State& s) { one_by_one(s, scene().moved, scene().hints); });
+    for (const std::string order : {"ordered", "random"}) {
+        compare(title + order + ": Embree", all + "embree/" + order, ours + order, 2);
+        compare(title + order + ": CGAL", all + "cgal/" + order, ours + order, 4);
+    }
+    compare(title + "ordered, one call a query: Embree", all + "embree/ordered", ours + "ordered_one_by_one", 1);
+    compare(title + "last answer as hint: Embree", all + "embree/moved", ours + "moved_hints", 3);
+    compare(title + "last answer as hint: ours without", ours + "moved_one_by_one", ours + "moved_hints", 2);
+}
+
 bool register_all() {
     const std::string all = "closest_point/";
-    struct Queries {
-        std::string name;
-        const Points Scene::*points;
-    };
-    const Queries ordered{"ordered", &Scene::ordered}, random{"random", &Scene::random}, moved{"moved", &Scene::moved};
-    for (const Queries& q : {ordered, random, moved}) {
-        add(all + "embree/" + q.name, [q](benchmark::State& s) { with_embree(s, scene().*q.points); });
-        add(all + "cgal/" + q.name, [q](benchmark::State& s) { with_cgal(s, scene().*q.points); });
-    }
-    for (const auto& path : search::searches()) {
-        const std::string ours = all + path.name + "/";
-        const auto with_path = [path](auto run) {
-            return [path, run](benchmark::State& state) {
-                search::use_search(path.search);
-                run(state);
-                search::use_search(nullptr);
-            };
-        };
-        for (const Queries& q : {ordered, random, moved}) {
-            add(ours + q.name, with_path([q](benchmark::State& s) { batch(s, scene().*q.points, {}); }));
-            add(ours + q.name + "/one_by_one",
-                with_path([q](benchmark::State& s) { one_by_one(s, scene().*q.points, {}); }));
-            for (const auto& [peer, wanted] : {std::pair{"embree", 2.0}, std::pair{"cgal", 4.0}}) {
-                compare(std::string(path.name) + ", " + q.name + ": " + peer, all + peer + "/" + q.name, ours + q.name,
-                        wanted);
-                compare(std::string(path.name) + ", " + q.name + ", one by one: " + peer, all + peer + "/" + q.name,
-                        ours + q.name + "/one_by_one", wanted);
-            }
-        }
-        add(ours + "moved/hints", with_path([](benchmark::State& s) { batch(s, scene().moved, scene().hints); }));
-        add(ours + "moved/hints/one_by_one",
-            with_path([](benchmark::State& s) { one_by_one(s, scene().moved, scene().hints); }));
-        compare(std::string(path.name) + ", moved, hints: embree", all + "embree/moved", ours + "moved/hints", 6);
-        compare(std::string(path.name) + ", moved, hints, one by one: embree", all + "embree/moved",
-                ours + "moved/hints/one_by_one", 6);
-    }
+    register_peers(all);
+    for (const auto& path : search::searches()) register_ours(all, path);
     add(all + "build", build);
     return true;
 }

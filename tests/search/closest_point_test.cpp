@@ -66,18 +66,33 @@ Points random_points(Eigen::Index count, double size, unsigned seed) {
     return Points::NullaryExpr(count, 3, [&] { return coordinate(random); });
 }
 
-// Triangles of all sizes thrown at random: they overlap, and some are slivers.
-Mesh soup(Eigen::Index count, unsigned seed, double size = 1) {
+// Triangles thrown at random, of as many sizes as `variety` says from half the whole downwards: they overlap.
+Mesh soup(Eigen::Index count, unsigned seed, Eigen::Index variety = 50) {
     Mesh mesh;
-    const Points centres = random_points(count, size, seed), corners = random_points(3 * count, size, seed + 1);
+    const Points centres = random_points(count, 1, seed), corners = random_points(3 * count, 1, seed + 1);
     mesh.positions.resize(3 * count, 3);
     mesh.triangles.resize(count, 3);
     for (Eigen::Index t = 0; t < count; ++t)
         for (int k = 0; k < 3; ++k) {
-            const double shrink = 1.0 / static_cast<double>(2 + t % 50);
+            const double shrink = 1.0 / static_cast<double>(2 + t % variety);
             mesh.positions.row(3 * t + k) = centres.row(t) + shrink * corners.row(3 * t + k);
             mesh.triangles(t, k) = static_cast<int>(3 * t + k);
         }
+    return mesh;
+}
+
+// Slivers of every kind beside sound triangles: needles, caps (an angle near 180 degrees), nearly a point.
+Mesh slivers(Eigen::Index count, unsigned seed) {
+    Mesh mesh = soup(count, seed);
+    for (Eigen::Index t = 0; t < count; ++t) {
+        const double thin = std::pow(10.0, -static_cast<double>(t % 14));
+        const Point a = mesh.positions.row(3 * t), b = mesh.positions.row(3 * t + 1),
+                    off = mesh.positions.row(3 * t + 2) - a;
+        if (t % 3 == 0) mesh.positions.row(3 * t + 2) = a + thin * off;
+        if (t % 3 == 1) mesh.positions.row(3 * t + 2) = 0.3 * a + 0.7 * b + thin * off;
+        if (t % 3 == 2 && thin < 1e-3)
+            for (int k = 1; k < 3; ++k) mesh.positions.row(3 * t + k) = a + thin * (mesh.positions.row(3 * t + k) - a);
+    }
     return mesh;
 }
 
@@ -196,15 +211,17 @@ TEST(ClosestPoint, TakesTrianglesWithoutAreaAsPointsAndEdges) {
 }
 
 TEST(ClosestPoint, AHintChangesNothing) {
-    const Mesh mesh = sheet(20, 0.2);
-    const ClosestPointIndex index(mesh);
-    const Points queries = random_points(300, 1.2, 31);
-    std::mt19937_64 random(1);
-    std::uniform_int_distribution<int> any(0, static_cast<int>(mesh.triangles.rows()) - 1);
-    for (Eigen::Index i = 0; i < queries.rows(); ++i) {
-        const ClosestPoint plain = index.closest(queries.row(i));
-        for (const int hint : {any(random), plain.where.triangle, -1, 1 << 30})
-            expect_same_bits(index.closest(queries.row(i), hint), plain);
+    // In the soup more leaves overlap than a neighbourhood holds.
+    for (const Mesh& mesh : {sheet(20, 0.2), soup(800, 73, 2), slivers(600, 79)}) {
+        const ClosestPointIndex index(mesh);
+        const Points queries = random_points(1000, 1.2, 31);
+        std::mt19937_64 random(1);
+        std::uniform_int_distribution<int> any(0, static_cast<int>(mesh.triangles.rows()) - 1);
+        for (Eigen::Index i = 0; i < queries.rows(); ++i) {
+            const ClosestPoint plain = index.closest(Point(queries.row(i)));
+            for (const int hint : {any(random), any(random), any(random), plain.where.triangle, -1, 1 << 30})
+                expect_same_bits(index.closest(Point(queries.row(i)), hint), plain);
+        }
     }
 }
 
@@ -253,6 +270,16 @@ TEST(ClosestPoint, FindsNothingBeyondTheBound) {
     EXPECT_FALSE(index.closest({std::nan(""), 0, 0}).found());
 }
 
+TEST(ClosestPoint, FindsNothingCompatibleFarAway) {
+    const ClosestPointIndex index(sheet(6, 0));
+    for (const double away : {1.0, 1e4, 1e12, 1e150}) {
+        EXPECT_FALSE(index.closest({0.5, away, away}, {{0, 0, -1}, 0.5}).found());
+        const ClosestPoint answer = index.closest({0.5, away, away}, {{0, 0, 1}, 0.5});
+        ASSERT_TRUE(answer.found());
+        EXPECT_NEAR(answer.squared_distance / away / away, 1 + (1 - 1 / away) * (1 - 1 / away), 1e-12);
+    }
+}
+
 TEST(ClosestPoint, ARowOfQueriesIsEachQueryWithAnyNumberOfThreads) {
     const Mesh mesh = sheet(30, 0.2);
     const ClosestPointIndex index(mesh);
@@ -271,21 +298,6 @@ TEST(ClosestPoint, ARowOfQueriesIsEachQueryWithAnyNumberOfThreads) {
         expect_same_bits(one[i], two[i]);
         expect_same_bits(one[i], hinted[i]);
     }
-}
-
-// Slivers of every kind beside sound triangles: needles, caps (an angle near 180 degrees), nearly a point.
-Mesh slivers(Eigen::Index count, unsigned seed) {
-    Mesh mesh = soup(count, seed);
-    for (Eigen::Index t = 0; t < count; ++t) {
-        const double thin = std::pow(10.0, -static_cast<double>(t % 14));
-        const Point a = mesh.positions.row(3 * t), b = mesh.positions.row(3 * t + 1),
-                    off = mesh.positions.row(3 * t + 2) - a;
-        if (t % 3 == 0) mesh.positions.row(3 * t + 2) = a + thin * off;
-        if (t % 3 == 1) mesh.positions.row(3 * t + 2) = 0.3 * a + 0.7 * b + thin * off;
-        if (t % 3 == 2 && thin < 1e-3)
-            for (int k = 1; k < 3; ++k) mesh.positions.row(3 * t + k) = a + thin * (mesh.positions.row(3 * t + k) - a);
-    }
-    return mesh;
 }
 
 TEST(ClosestPoint, AgreesWithTryingAllSlivers) {

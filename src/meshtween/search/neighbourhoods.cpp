@@ -62,9 +62,11 @@ Neighbourhood neighbourhood(const std::vector<WideNode>& nodes, const FloatBox& 
             hood.high[k][i] = leaf.box.high[k];
         }
     }
-    for (std::size_t k = 0; k < 3; ++k) { // less than the reach, by more than a rounding
-        hood.inside_low[k] = middle.low[k] - 0.999F * reach;
-        hood.inside_high[k] = middle.high[k] + 0.999F * reach;
+    // Less than the reach, by more than a rounding; nowhere, where more leaves than fit overlap the middle.
+    const float inside = reach > 0 ? 0.999F * reach : -FloatBox::nowhere;
+    for (std::size_t k = 0; k < 3; ++k) {
+        hood.inside_low[k] = middle.low[k] - inside;
+        hood.inside_high[k] = middle.high[k] + inside;
     }
     return hood;
 }

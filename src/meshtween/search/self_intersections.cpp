@@ -82,14 +82,6 @@ struct Surface {
     Corners corners(int t) const {
         return {positions.row(triangles(t, 0)), positions.row(triangles(t, 1)), positions.row(triangles(t, 2))};
     }
-    bool boxes_meet(const Corners& s, const Corners& t) const {
-        for (int k = 0; k < 3; ++k) {
-            const auto [s_low, s_high] = std::minmax({s[0][k], s[1][k], s[2][k]});
-            const auto [t_low, t_high] = std::minmax({t[0][k], t[1][k], t[2][k]});
-            if (s_high < t_low || t_high < s_low) return false;
-        }
-        return true;
-    }
     bool cut(int s, int t) const;
 };
 
@@ -120,7 +112,6 @@ Arranged arrange(const Surface& surface, int s, int t) {
 }
 
 bool Surface::cut(int s, int t) const {
-    if (!boxes_meet(corners(s), corners(t))) return false;
     const Arranged pair = arrange(*this, s, t);
     switch (pair.shared) {
     case 0:
@@ -139,10 +130,18 @@ bool Surface::cut(int s, int t) const {
 
 using Pairs = std::vector<std::array<int, 2>>;
 
+struct Leaves {
+    search::BoxTree tree;                // over the triangles that have area, by their own numbers
+    std::vector<search::FloatBox> boxes; // of the triangles in the tree's order
+    std::vector<int> leaves;
+};
+
 // All cutting pairs of a leaf with itself and with the leaves after it.
-void meet(const Surface& surface, const search::BoxTree& tree, int leaf, Pairs& found) {
+void meet(const Surface& surface, const Leaves& all, int leaf, Pairs& found) {
+    const search::BoxTree& tree = all.tree;
     const auto& own = tree.nodes[static_cast<std::size_t>(leaf)];
     const auto item = [&](int i) { return tree.order[static_cast<std::size_t>(i)]; };
+    const auto box = [&](int i) -> const search::FloatBox& { return all.boxes[static_cast<std::size_t>(i)]; };
     std::array<int, search::BoxTree::deepest + 1> stack;
     std::size_t top = 0;
     stack[top++] = 0;
@@ -156,15 +155,10 @@ void meet(const Surface& surface, const search::BoxTree& tree, int leaf, Pairs& 
         }
         for (int i = own.first; i < own.first + own.count; ++i)
             for (int j = std::max(node.first, i + 1); j < node.first + node.count; ++j)
-                if (surface.cut(item(i), item(j)))
+                if (overlap(box(i), box(j)) && surface.cut(item(i), item(j)))
                     found.push_back({std::min(item(i), item(j)), std::max(item(i), item(j))});
     }
 }
-
-struct Leaves {
-    search::BoxTree tree; // over the triangles that have area, by their own numbers
-    std::vector<int> leaves;
-};
 
 Leaves leaves_over_area(const Surface& surface) {
     const Triangles& triangles = surface.triangles;
@@ -182,8 +176,11 @@ Leaves leaves_over_area(const Surface& surface) {
             number.push_back(static_cast<int>(t));
         }
     boxes.resize(number.size());
-    Leaves result{search::box_tree(boxes, 4), {}};
-    for (int& item : result.tree.order) item = number[static_cast<std::size_t>(item)];
+    Leaves result{search::box_tree(boxes, 4), {}, {}};
+    for (int& item : result.tree.order) {
+        result.boxes.push_back(boxes[static_cast<std::size_t>(item)]);
+        item = number[static_cast<std::size_t>(item)];
+    }
     for (std::size_t n = 0; n < result.tree.nodes.size(); ++n)
         if (result.tree.nodes[n].count > 0) result.leaves.push_back(static_cast<int>(n));
     return result;
@@ -202,8 +199,7 @@ std::vector<std::array<int, 2>> self_intersections(const Points& positions, cons
         static_cast<std::ptrdiff_t>(found.size()),
         [&](std::ptrdiff_t b) {
             for (std::ptrdiff_t i = b * grain; i < std::min(count, (b + 1) * grain); ++i)
-                meet(surface, leaves.tree, leaves.leaves[static_cast<std::size_t>(i)],
-                     found[static_cast<std::size_t>(b)]);
+                meet(surface, leaves, leaves.leaves[static_cast<std::size_t>(i)], found[static_cast<std::size_t>(b)]);
         },
         1);
     Pairs all;

@@ -43,7 +43,8 @@ void search_far(const WideView& tree, WideQuery& query) {
     };
     const auto visit = [&](const auto& self, const WideNode& node) -> void {
         for (int i = 0; i < wide; ++i) {
-            if (!worth_it(node, i)) continue;
+            const bool empty = node.low[0][i] > node.high[0][i];
+            if (empty || !worth_it(node, i)) continue;
             if (node.child[i] >= 0) {
                 self(self, tree.nodes[node.child[i]]);
                 continue;

@@ -115,6 +115,7 @@ TriangleBlock block_of(const Points& positions, const Triangles& triangles, std:
     int exponent = 0;
     std::frexp(std::max((high / 2 - low / 2).maxCoeff(), smallest), &exponent);
     block.scale = std::ldexp(1.0, -exponent);
+    block.unit = std::ldexp(1.0, exponent);
     for (int k = 0; k < 3; ++k) block.centre[k] = centre[k];
     double most = 0;
     for (int lane = 0; lane < wide; ++lane) {

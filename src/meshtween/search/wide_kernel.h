@@ -93,24 +93,27 @@ struct Search {
         bound = squared < 3e38 ? static_cast<float>(squared) : 3e38F;
     }
 
-    // Puts the children within reach on the stack. Boxes is a WideNode or a Neighbourhood.
-    template <typename Boxes>
-    void open(const Boxes& boxes) {
+    // The squared distances of `lanes` boxes.
+    Floats to_boxes(const float* low, const float* high, int children) const {
+        Floats squared = Floats{};
+        for (int k = 0; k < 3; ++k) {
+            const Floats below = load(low + k * children) - point[k], above = point[k] - load(high + k * children);
+            const Floats outside = larger<Floats>(larger<Floats>(below, above), Floats{});
+            squared += outside * outside;
+        }
+        return squared;
+    }
+
+    // Puts the children within reach on the stack.
+    void open(const WideNode& node) {
         const int from = stack.count;
-        constexpr int children = sizeof(boxes.child) / sizeof(int);
-        for (int start = 0; start < children; start += lanes) {
-            Floats squared = Floats{};
-            for (int k = 0; k < 3; ++k) {
-                const Floats below = load(boxes.low[k] + start) - point[k],
-                             above = point[k] - load(boxes.high[k] + start);
-                const Floats outside = larger<Floats>(larger<Floats>(below, above), Floats{});
-                squared += outside * outside;
-            }
+        for (int start = 0; start < wide; start += lanes) {
+            const Floats squared = to_boxes(node.low[0] + start, node.high[0] + start, wide);
             alignas(32) float distance[lanes];
             *reinterpret_cast<Floats*>(distance) = squared;
             for (unsigned hit = at_most(squared, floats(bound)); hit != 0; hit &= hit - 1) {
                 const int i = __builtin_ctz(hit);
-                stack.insert(from, distance[i], boxes.child[start + i]);
+                stack.insert(from, distance[i], node.child[start + i]);
             }
         }
     }
@@ -122,12 +125,13 @@ struct Search {
         return result;
     }
 
-    void start() {
-        if (query.triangle >= 0) {
-            const Neighbourhood& hood = tree.neighbourhoods[tree.home[query.triangle]];
-            if (inside(hood)) return open(hood);
-        }
-        open(tree.nodes[0]);
+    // With the last answer as bound there are few leaves within reach, and no order of theirs is worth its making.
+    void look_around(const Neighbourhood& hood) {
+        unsigned hit = 0;
+        for (int start = 0; start < most_neighbours; start += lanes)
+            hit |= at_most(to_boxes(hood.low[0] + start, hood.high[0] + start, most_neighbours), floats(bound))
+                   << start;
+        for (; hit != 0; hit &= hit - 1) look_into(tree.blocks[~hood.child[__builtin_ctz(hit)]]);
     }
 
     void settle_candidates() { // the last ones are the closest, and leave little to do for the others
@@ -140,7 +144,7 @@ struct Search {
     }
 
     void consider(int t, double distance, double margin) {
-        if (distance - margin > reach || t == query.triangle || !agrees(tree, query, t)) return;
+        if (distance - margin > reach || !agrees(tree, query, t)) return;
         if (count == most) {
             settle_candidates();
             limit(reach);
@@ -166,14 +170,14 @@ struct Search {
             alignas(32) float distance[lanes];
             *reinterpret_cast<Floats*>(distance) = squared;
             for (unsigned hit = at_most(squared, floats(squared_within)); hit != 0; hit &= hit - 1) {
-                const int i = __builtin_ctz(hit);
-                consider(block.triangle[start + i], __builtin_sqrtf(distance[i]) / block.scale, margin / block.scale);
+                const int i = __builtin_ctz(hit), t = block.triangle[start + i];
+                if (t != query.triangle) consider(t, __builtin_sqrtf(distance[i]) * block.unit, margin * block.unit);
             }
         }
     }
 
-    void run() {
-        start();
+    void come_down() {
+        open(tree.nodes[0]);
         while (stack.count > 0) {
             const unsigned long long entry = stack.waiting[--stack.count];
             if (!(__builtin_bit_cast(float, static_cast<unsigned>(entry >> 32)) <= bound)) continue;
@@ -183,6 +187,14 @@ struct Search {
             else
                 look_into(tree.blocks[~child]);
         }
+    }
+
+    void run() {
+        const int hint = query.triangle;
+        if (hint >= 0 && inside(tree.neighbourhoods[tree.home[hint]]))
+            look_around(tree.neighbourhoods[tree.home[hint]]);
+        else
+            come_down();
         settle_candidates();
     }
 };

@@ -17,8 +17,8 @@ struct alignas(64) WideNode {
 struct alignas(64) TriangleBlock {
     float a[3][wide], ab[3][wide], ac[3][wide];
     int triangle[wide];
-    double centre[3], scale; // from the mesh's unit: (p - centre) * scale
-    float slack;             // times (4 + distance from the centre): more than a distance in floats is off
+    double centre[3], scale, unit; // from the mesh's unit: (p - centre) * scale; unit = 1 / scale
+    float slack;                   // times (4 + distance from the centre): more than a distance in floats is off
 };
 
 // All leaves about a few neighbouring ones: where the last answer's neighbourhood holds all that the answer can be, the
