@@ -81,7 +81,13 @@ void add_path_flags(CLI::App& verb, PathFlags& flags) {
         ->check(CLI::Range(2, 100000))
         ->capture_default_str();
     verb.add_option("--at", flags.at, "Write only the shape at this u, 0 (source) to 1 (target)")
-        ->check(CLI::Range(0.0, 1.0))
+        ->check(CLI::Validator(
+            [](const std::string& text) { // a range check alone lets nan through
+                double u = 0;
+                return CLI::detail::lexical_cast(text, u) && u >= 0 && u <= 1 ? ""
+                                                                              : text + " is not a number from 0 to 1";
+            },
+            "0..1"))
         ->expected(1);
     verb.add_option("--c1", flags.options.c1, "C1 of the dual method's Eq. 12, over 1")->capture_default_str();
     verb.add_option("--c2", flags.options.c2, "C2 of the dual method's Eq. 12, under 1")->capture_default_str();

@@ -38,8 +38,13 @@ int main(int argc, char** argv) {
     } catch (const CLI::Success& done) { // --help, --version
         return app.exit(done);
     } catch (const CLI::ParseError& error) {
-        fmt::print(stderr, "meshtween: {}\nmeshtween {} --help tells more\n", error.what(),
-                   app.get_subcommands().empty() ? "" : app.get_subcommands().front()->get_name());
+        const auto verbs = app.get_subcommands();
+        if (verbs.empty() && !app.remaining().empty())
+            fmt::print(stderr, "meshtween: there is no verb \"{}\"\nmeshtween --help lists them\n",
+                       app.remaining().front());
+        else
+            fmt::print(stderr, "meshtween: {}\nmeshtween {}--help tells more\n", error.what(),
+                       verbs.empty() ? "" : verbs.front()->get_name() + " ");
         return 1;
     } catch (const Interrupted&) {
         fmt::print(stderr, "meshtween: stopped; no unfinished file was left\n");

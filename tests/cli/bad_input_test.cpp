@@ -46,7 +46,7 @@ std::string with_line(std::string text, const std::string& line) {
 const std::vector<Row> rows = {
     // Files that are no meshes.
     {"NoSuchFile", {}, fit_with("#/absent.obj"), 3, {"absent.obj", "no such file"}},
-    {"AFolder", {}, fit_with("#"), 1, {"extension"}},
+    {"AFolder", {}, fit_with("#"), 3, {"folder"}},
     {"AFolderNamedLikeAMesh", {{"d.obj/x", ""}}, fit_with("#/d.obj"), 3, {"d.obj", "folder"}},
     {"Empty", {{"a.obj", ""}}, fit_with("#/a.obj"), 3, {"a.obj", "empty"}},
     {"UnknownExtension", {{"a.fbx", "x"}}, fit_with("#/a.fbx"), 1, {".fbx", ".obj"}},
@@ -98,8 +98,8 @@ const std::vector<Row> rows = {
     {"CoincidentMarkers",
      {{"m.csv", four_markers + "e,0,0,0,0.5,0.5,0\n"}},
      fit_with("#/good.obj", "#/m.csv"),
-     2,
-     {"a", "e", "same place"}},
+     3,
+     {"'a'", "'e'", "one place"}},
     {"MarkersOnALine",
      {{"m.csv", "a,0,0,0,0,0,0\nb,0.5,0,0,0.5,0,0\nc,1,0,0,1,0,0\n"}},
      fit_with("#/good.obj", "#/m.csv"),
@@ -126,7 +126,7 @@ const std::vector<Row> rows = {
      {},
      {"tween", "#/good.obj", "#/good.obj", "--method", "dual", "--c1", "0.5", "-o", "#/f_#.obj"},
      1,
-     {"c1"}},
+     {"C1"}},
     {"OneMeshOfAPath", {}, {"tween", "#/good.obj", "#/good.obj", "-o", "#/f.obj"}, 1, {"--at", "f_####.obj"}},
     {"APageOfOneShape", {}, {"tween", "#/good.obj", "#/good.obj", "--at", "0.5", "-o", "#/f.html"}, 1, {"f.html"}},
     {"OtherConnectivity",
@@ -191,7 +191,7 @@ TEST_P(BadInput, IsToldAndLeavesNothing) {
     EXPECT_EQ(folder.files(), before);
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, BadInput, testing::ValuesIn(rows), [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(Table, BadInput, testing::ValuesIn(rows), [](const auto& row) { return row.param.name; });
 
 // Unusual meshes that are told of, and still give a result.
 class Unusual : public testing::TestWithParam<Row> {};
@@ -200,13 +200,13 @@ const std::vector<Row> unusual_rows = {
     {"RepeatedVertex", {{"a.obj", with_line(tetrahedron, "f 1 1 2")}}, fit_with("#/a.obj"), 0, {"a.obj", "face 4"}},
     {"NonManifoldEdge",
      {{"a.obj",
-       "v 1 1 1\n" + with_line("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 2 4 3\nf 2 3 5\nf 3 4 5\nf 2 5 4", "f 2 3 1")}},
+       "v 1 1 1\n" + with_line("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 2 4 3\nf 2 3 5\nf 3 4 5\nf 2 5 4\n", "f 2 3 1")}},
      fit_with("#/a.obj"),
      0,
      {"a.obj", "three"}},
     {"ZeroArea",
      {{"a.obj",
-       with_line("v 0.5 0 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 2 4 3\nf 2 3 5\nf 3 4 5\nf 2 5 4", "f 1 2 3")}},
+       with_line("v 0.5 0 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 2 4 3\nf 2 3 5\nf 3 4 5\nf 2 5 4\n", "f 1 2 3")}},
      fit_with("#/a.obj"),
      0,
      {"a.obj", "area"}},
@@ -216,7 +216,7 @@ const std::vector<Row> unusual_rows = {
      0,
      {"a.obj", "inside"}},
     {"MarkerFarFromTheMesh",
-     {{"m.csv", four_markers + "far,0,0,9,0,0,0.5\n"}},
+     {{"m.csv", four_markers + "far,0.2,0.2,-2,0.2,0.2,0\n"}},
      fit_with("#/good.obj", "#/m.csv"),
      0,
      {"far"}},
@@ -241,7 +241,7 @@ TEST_P(Unusual, IsToldAndDone) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Table, Unusual, testing::ValuesIn(unusual_rows),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& row) { return row.param.name; });
 
 class NotWritable : public testing::Test {
 protected:

@@ -124,7 +124,7 @@ ViewAxes view_axes(double azimuth_degrees, double elevation_degrees) {
     return axes;
 }
 
-std::vector<Lit> light(const std::vector<Place>& places, const Points& positions, const Triangles& triangles,
+std::vector<Lit> light(const std::vector<SurfaceSpot>& places, const Points& positions, const Triangles& triangles,
                        const ViewAxes& view) {
     std::vector<Lit> result(places.size());
     const std::vector<SmallLight> lights = studio(view, triangles.rows());
@@ -138,7 +138,7 @@ std::vector<Lit> light(const std::vector<Place>& places, const Points& positions
         };
         parallel_for(static_cast<std::ptrdiff_t>(count), draw, 1);
         parallel_for(static_cast<std::ptrdiff_t>(places.size()), [&](std::ptrdiff_t p) {
-            const Place& place = places[static_cast<std::size_t>(p)];
+            const SurfaceSpot& place = places[static_cast<std::size_t>(p)];
             Lit& lit = result[static_cast<std::size_t>(p)];
             for (std::size_t k = 0; k < count; ++k) {
                 const SmallLight& source = lights[first + k];
@@ -155,8 +155,8 @@ std::vector<Lit> light(const std::vector<Place>& places, const Points& positions
     return result;
 }
 
-Eigen::Vector3f shade(const Place& place, const Lit& lit, const Eigen::Vector3f& albedo, const Eigen::Vector3d& to_eye,
-                      const ViewAxes& view) {
+Eigen::Vector3f shade(const SurfaceSpot& place, const Lit& lit, const Eigen::Vector3f& albedo,
+                      const Eigen::Vector3d& to_eye, const ViewAxes& view) {
     const Eigen::Vector3d half = (key_direction(view) + to_eye).normalized();
     const double facing = std::max(0.0, place.normal.dot(to_eye));
     const double gloss = std::pow(std::max(0.0, place.normal.dot(half)), 36) * 0.10 * lit.key;

@@ -12,7 +12,7 @@ using ViewAxes = Eigen::Matrix3d;
 ViewAxes view_axes(double azimuth_degrees, double elevation_degrees);
 
 // A place that is lit.
-struct Place {
+struct SurfaceSpot {
     Eigen::Vector3d position, normal;
 };
 
@@ -22,11 +22,11 @@ struct Lit {
 };
 
 // The light at each place while the mesh casts shadows. The lights stand with the viewer: the key at the upper left.
-std::vector<Lit> light(const std::vector<Place>& places, const Points& positions, const Triangles& triangles,
+std::vector<Lit> light(const std::vector<SurfaceSpot>& places, const Points& positions, const Triangles& triangles,
                        const ViewAxes& view);
 
 // What a viewer sees of a place of this colour (linear RGB) from the direction towards the eye.
-Eigen::Vector3f shade(const Place& place, const Lit& lit, const Eigen::Vector3f& albedo, const Eigen::Vector3d& to_eye,
+Eigen::Vector3f shade(const SurfaceSpot& place, const Lit& lit, const Eigen::Vector3f& albedo, const Eigen::Vector3d& to_eye,
                       const ViewAxes& view);
 
 // m x 9: the unit normals of each triangle's corners, smooth but for edges sharper than this angle.

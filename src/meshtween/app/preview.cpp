@@ -32,7 +32,7 @@ float toned(float v) {
 
 // A place seen in some of a pixel's samples, with the colour of the surface there.
 struct Fragment {
-    Place place;
+    SurfaceSpot place;
     Eigen::Vector3f albedo;
     int pixel = 0;
     int samples = 0;
@@ -136,7 +136,7 @@ std::vector<float> blurred(std::vector<float> image, int width, int radius) {
 // How dark the shadow on the ground is at each pixel of a tile, 0..1.
 std::vector<float> ground_shadow(const Shape& shape, const Layout& layout) {
     const Camera& camera = layout.camera;
-    std::vector<Place> places;
+    std::vector<SurfaceSpot> places;
     std::vector<int> pixels;
     for (int y = 0; y < layout.height + layout.caption; ++y)
         for (int x = 0; x < layout.width; ++x) {
@@ -205,7 +205,7 @@ Samples draw_shape(Canvas& canvas, int canvas_width, int left, int top, const Me
     for (int pixel = 0; pixel < layout.width * rows; ++pixel)
         canvas.row(at(pixel)) *= 1 - shadow[static_cast<std::size_t>(pixel)];
     const std::vector<Fragment> seen = fragments(mesh, shape, camera, samples);
-    std::vector<Place> places(seen.size());
+    std::vector<SurfaceSpot> places(seen.size());
     std::transform(seen.begin(), seen.end(), places.begin(), [](const Fragment& f) { return f.place; });
     const std::vector<Lit> lit = light(places, shape.positions, shape.triangles, camera.axes);
     // What is behind shows through the samples that nothing covers.

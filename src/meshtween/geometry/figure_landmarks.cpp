@@ -8,7 +8,7 @@ namespace {
 
 using namespace figure_rest;
 
-std::vector<Place> places() {
+std::vector<LandmarkSpot> places() {
     const Point up(0, 1, 0), down(0, -1, 0), ahead(0, 0, 1), back(0, 0, -1), out(1, 0, 0);
     const Point palm = on_arm(0, 1, 0) - on_arm(0, 0, 0), leg = (ankle - hip).normalized();
     const Point knee_centre = hip + knee * leg;

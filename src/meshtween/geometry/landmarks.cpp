@@ -2,10 +2,10 @@
 
 namespace meshtween {
 
-Landmarks landmarks(const Field& body, const std::vector<Place>& places, double reach) {
+Landmarks landmarks(const Field& body, const std::vector<LandmarkSpot>& places, double reach) {
     Landmarks marks;
     std::vector<Point> points;
-    for (const Place& place : places) {
+    for (const LandmarkSpot& place : places) {
         const Point left = shoot(body, place.inside, place.direction, reach);
         marks.names.push_back(place.name + (place.pair ? "_L" : ""));
         points.push_back(left);

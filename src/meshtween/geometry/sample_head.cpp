@@ -47,7 +47,7 @@ Sculpture head_body() {
     return head;
 }
 
-std::vector<Place> head_places() {
+std::vector<LandmarkSpot> head_places() {
     const Point up(0, 1, 0), down(0, -1, 0), ahead(0, 0, 1), back(0, 0, -1), out(1, 0, 0);
     return {
         {"crown", {0, 0.2, -0.05}, up},

@@ -79,9 +79,9 @@ Sculpture cup() {
     return body;
 }
 
-std::vector<Place> cup_places() {
+std::vector<LandmarkSpot> cup_places() {
     const Point up(0, 1, 0), down(0, -1, 0);
-    std::vector<Place> places{{"bottom", {0, 0.1, 0}, down, false}, {"well", {0, 0.08, 0}, up, false}};
+    std::vector<LandmarkSpot> places{{"bottom", {0, 0.1, 0}, down, false}, {"well", {0, 0.08, 0}, up, false}};
     const auto around = [&](const std::string& name, double radius, double height, double lean, double from) {
         for (int i = 0; i < 4; ++i) {
             const double u = from + pi / 2 * i;
@@ -117,7 +117,7 @@ Point amphora(const Point& p) {
 Sample torus_sample() {
     const auto meshes = two_meshes(ring, {{-1.5, -0.5, -1.5}, {1.5, 0.5, 1.5}}, 0.06,
                                    {.deviation = 0.0025, .shortest = 0.03, .longest = 0.09});
-    std::vector<Place> places;
+    std::vector<LandmarkSpot> places;
     for (int i = 0; i < 8; ++i) {
         const double u = pi / 4 * i;
         const Point out(std::sin(u), 0, std::cos(u));

@@ -22,7 +22,7 @@ constexpr double far_away = 0.05; // of the diagonal
 // A mesh's surface by some of its triangles, spread over all of it. Enough to tell 5 % of the diagonal, and quick.
 class Surface {
 public:
-    explicit Surface(const Mesh& mesh) : mesh_(mesh), diagonal_(diagonal(mesh.positions)) {
+    explicit Surface(const Mesh& mesh) : mesh_(mesh), diagonal_(meshtween::diagonal(mesh.positions)) {
         constexpr Eigen::Index most = 20000;
         const Eigen::Index count = mesh.triangles.rows();
         auto step = static_cast<Eigen::Index>(0.618 * static_cast<double>(count)) + 1;
@@ -40,6 +40,8 @@ public:
         return std::any_of(triangles_.begin(), triangles_.end(),
                            [&](Eigen::Index t) { return distance_to(t, point) <= reach; });
     }
+
+    double diagonal() const { return diagonal_; }
 
     // Of the diagonal.
     double distance(const Point& point) const {
@@ -112,7 +114,8 @@ std::string likely_remedy(const Points& places, const Surface& own, const Surfac
     if (nearly_all(near_flags(some, other)))
         return fmt::format("they lie on the {}, so the two sides seem to be exchanged", other_name);
     for (const Cause& cause : causes())
-        if (nearly_all(near_flags(some * cause.undo.transpose(), own)))
+        if (const Points mended = some * cause.undo.transpose();
+            diagonal(mended) > far_away * own.diagonal() && nearly_all(near_flags(mended, own))) // not all in one spot
             return fmt::format("they would lie on it if one would {}; do that to the file", cause.remedy);
     return "see whether they belong to this model, in this place";
 }
@@ -130,9 +133,10 @@ void note_side(const std::vector<MarkerPair>& pairs, Point MarkerPair::*side, co
         if (names.size() < 5) names.push_back(pairs[i].name);
     }
     if (names.empty()) return;
-    const std::string remedy =
-        nearly_all(near) ? "see whether they are where they should be" : likely_remedy(places, own, other, other_name);
     const auto far_count = std::count(near.begin(), near.end(), 0);
+    const bool few = 2 * far_count < std::ssize(near); // a wrong unit or axis moves most of them
+    const std::string remedy =
+        few ? "see whether they are where they should be" : likely_remedy(places, own, other, other_name);
     notes.push_back(
         fmt::format("{} of {} markers lie further from the {} than 5 % of its diagonal, up to {:.3g} % ({}{}): {}",
                     far_count, pairs.size(), name, 100 * farthest, fmt::join(names, ", "),
