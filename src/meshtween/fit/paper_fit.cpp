@@ -24,7 +24,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double first_strength = 1, last_strength = 0.02; // of smoothing, falling by a constant factor a round
+constexpr double first_strength = 0.3, last_strength = 0.02; // of smoothing, falling by a constant factor a round
 constexpr double near_rim = 0.03;         // parts of the target's size within which boundaries belong together
 constexpr double looks_away = 0.1;        // cosine to the target's normal under which a triangle needs smoothing
 constexpr double held_softly = 1e-3;      // smoothing of the warp that takes markers back
