@@ -296,6 +296,7 @@ private:
         if (closed_) return;
         const auto loops = boundary_loops(t_, top_);
         std::vector<std::size_t> lengths;
+        lengths.reserve(loops.size());
         for (const auto& loop : loops) lengths.push_back(loop.size());
         std::sort(lengths.rbegin(), lengths.rend());
         loops_ = std::ssize(loops);

@@ -11,6 +11,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 namespace meshtween {
 namespace {
@@ -111,7 +112,7 @@ double value_at(const char* raw, std::size_t type, bool normalized) {
 
 } // namespace
 
-GltfData::GltfData(std::string_view bytes, const std::filesystem::path& path) : path_(path), total_(bytes.size()) {
+GltfData::GltfData(std::string_view bytes, std::filesystem::path path) : path_(std::move(path)), total_(bytes.size()) {
     split_container(bytes);
     if (!root_.is_object() || !root_.value("asset", json()).is_object()) fail("is no glTF file: it has no 'asset'");
     refuse_extensions();

@@ -21,7 +21,7 @@ struct GltfRows {
 class GltfData {
 public:
     // `bytes` (GLB or JSON) must outlive this. Throws Error(file).
-    GltfData(std::string_view bytes, const std::filesystem::path& path);
+    GltfData(std::string_view bytes, std::filesystem::path path);
 
     const nlohmann::json& root() const { return root_; }
 

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <ranges>
 
 namespace meshtween {
 namespace {
@@ -123,7 +124,7 @@ private:
 
     // So that the first of them is the next to be visited.
     static void push(std::vector<Placed>& stack, const std::vector<std::size_t>& nodes, const Eigen::Matrix4d& world) {
-        for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) stack.push_back({*node, world});
+        for (const std::size_t node : nodes | std::views::reverse) stack.push_back({node, world});
     }
 
     void read_mesh_of(std::size_t index, const Eigen::Matrix4d& world);

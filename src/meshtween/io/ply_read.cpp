@@ -39,8 +39,8 @@ private:
 // Numbers one after another, as memory has them, in either byte order.
 class BinaryNumbers {
 public:
-    BinaryNumbers(std::string_view data, const std::filesystem::path& path, const PlyHeader& header)
-        : data_(data), path_(path),
+    BinaryNumbers(std::string_view data, std::filesystem::path path, const PlyHeader& header)
+        : data_(data), path_(std::move(path)),
           swap_((header.encoding == PlyEncoding::little_endian) != (std::endian::native == std::endian::little)) {}
 
     double next(PlyType type) {
@@ -121,7 +121,7 @@ double color_scale(PlyType type) {
 template <typename Numbers>
 class PlyReader {
 public:
-    PlyReader(Numbers numbers, const std::filesystem::path& path) : numbers_(std::move(numbers)), path_(path) {}
+    PlyReader(Numbers numbers, std::filesystem::path path) : numbers_(std::move(numbers)), path_(std::move(path)) {}
 
     PolygonMesh read(const PlyHeader& header) {
         for (const PlyElement& element : header.elements) {

@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace meshtween {
 
@@ -40,8 +41,8 @@ inline bool parse(std::string_view word, long long& value) {
 class Text {
 public:
     // `first_line` is the number of the line that `bytes` begins with.
-    Text(std::string_view bytes, const std::filesystem::path& path, long first_line = 1)
-        : next_(bytes.data()), end_(bytes.data() + bytes.size()), number_(first_line - 1), path_(path) {
+    Text(std::string_view bytes, std::filesystem::path path, long first_line = 1)
+        : next_(bytes.data()), end_(bytes.data() + bytes.size()), number_(first_line - 1), path_(std::move(path)) {
         if (bytes.substr(0, 3) == "\xEF\xBB\xBF") next_ += 3; // the mark that some editors put before UTF-8
     }
 
