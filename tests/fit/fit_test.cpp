@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <memory>
 
 namespace meshtween {
 namespace {
@@ -32,9 +33,12 @@ std::vector<Marker> markers_at(const Mesh& source, const std::function<Point(con
     return markers;
 }
 
-struct Pair {
+struct Pair { // the markers lie on the target's triangles, not on the ellipsoid that these cut short
     Mesh source = sphere(3), target = ellipsoid(4);
-    std::vector<Marker> markers = markers_at(source, [](const Point& p) { return Point(p.cwiseProduct(radii)); });
+    std::vector<Marker> markers =
+        markers_at(source, [index = std::make_shared<ClosestPointIndex>(target)](const Point& p) {
+            return index->closest(Point(p.cwiseProduct(radii))).position;
+        });
 };
 
 double largest_distance(const Points& points, const Mesh& surface) {
@@ -57,11 +61,11 @@ std::string message_of(const Mesh& source, const Mesh& target, const std::vector
 TEST(PaperFit, SphereToEllipsoid) {
     const Pair pair;
     FitOptions options;
-    options.threshold = 3e-4; // what is left is the sag of the source's coarse triangles
+    options.threshold = 5e-5;
     const FitResult result = fit(pair.source, pair.target, pair.markers, options);
     EXPECT_EQ(result.end, FitEnd::converged);
-    EXPECT_LT(result.history.back(), 3e-4);
-    EXPECT_GT(result.history.front(), 3e-4);
+    EXPECT_LT(result.history.back(), options.threshold);
+    EXPECT_GT(result.history.front(), 2 * options.threshold);
     EXPECT_EQ(static_cast<int>(result.history.size()), result.rounds);
     EXPECT_LT(largest_distance(result.positions, pair.target), 1e-9);
     EXPECT_LT(result.error, 1e-18);
@@ -104,11 +108,14 @@ TEST(PaperFit, SameBitsForAnyThreads) {
 TEST(PaperFit, CancelledIsTheBestSoFar) {
     const Pair pair;
     double last = 0;
-    const FitResult result = fit(pair.source, pair.target, pair.markers, {}, [&](double fraction, std::string_view) {
-        EXPECT_GE(fraction, last);
-        last = fraction;
-        return fraction < 0.06;
-    });
+    FitOptions options;
+    options.threshold = 0;
+    const FitResult result =
+        fit(pair.source, pair.target, pair.markers, options, [&](double fraction, std::string_view) {
+            EXPECT_GE(fraction, last);
+            last = fraction;
+            return fraction < 0.06;
+        });
     EXPECT_EQ(result.end, FitEnd::cancelled);
     EXPECT_GT(result.rounds, 0);
     EXPECT_LT(result.rounds, 5);
@@ -203,17 +210,22 @@ TEST_P(Spoilt, SourceOrTargetGivesAResult) {
                 const int vertex = std::stoi(marker.name.substr(1));
                 marker.source = index.closest(Point(before.row(vertex))).where;
             }
-            if (pair.source.triangles.rows() < 1000)
+            if (GetParam() == cut_open) // what was cut away has no markers
                 std::erase_if(pair.markers, [&](const Marker& m) {
                     return (position(pair.source.positions, pair.source.triangles, m.source) -
                             before.row(std::stoi(m.name.substr(1))))
                                .norm() > 1e-9;
                 });
-            const FitResult result = fit(pair.source, pair.target, pair.markers);
-            EXPECT_EQ(result.positions.rows(), pair.source.positions.rows());
-            EXPECT_TRUE(result.positions.allFinite()) << source_too << target_too;
-            EXPECT_TRUE(std::isfinite(result.error));
-            for (const double h : result.history) EXPECT_TRUE(std::isfinite(h));
+            try {
+                const FitResult result = fit(pair.source, pair.target, pair.markers);
+                EXPECT_EQ(result.positions.rows(), pair.source.positions.rows());
+                EXPECT_TRUE(result.positions.allFinite()) << source_too << target_too;
+                EXPECT_TRUE(std::isfinite(result.error));
+                for (const double h : result.history) EXPECT_TRUE(std::isfinite(h));
+            } catch (const Error& error) { // a flattened source's markers can meet: then they are named
+                EXPECT_TRUE(source_too && GetParam() == flatten) << error.what();
+                EXPECT_NE(std::string(error.what()).find("markers 'm"), std::string::npos) << error.what();
+            }
         }
 }
 

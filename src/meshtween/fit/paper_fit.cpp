@@ -14,8 +14,6 @@
 #include "meshtween/fit/smooth.h"
 #include "meshtween/geometry/measure.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
