@@ -31,6 +31,11 @@ def rows_of(path):
         return [r for r in csv.reader(f) if r]
 
 
+def markers_of(case):
+    path = os.path.join(case, "markers.csv")
+    return os.path.exists(path) and len(rows_of(path)) > 1
+
+
 def split(path, folder):
     """Two marker files: two thirds to fit with, one third to score."""
     rows = rows_of(path)
@@ -137,14 +142,14 @@ def main():
     ap.add_argument("--ruler", help="an independent program that measures the same fits")
     ap.add_argument("--only", default="", help="cases whose name holds this word")
     ap.add_argument("--fit", nargs="+", default=["paper"])
-    ap.add_argument("--methods", nargs="+", default=["linear", "laplacian", "dual-as-printed", "dual"])
+    ap.add_argument("--methods", nargs="+", default=["linear", "laplacian", "dual-as-printed", "dual", "rigid"])
     ap.add_argument("--write", help="put the tables between the marks of this page")
     a = ap.parse_args()
     cases = sorted(os.path.join(a.data, d) for d in os.listdir(a.data)
                    if a.only in d and os.path.exists(os.path.join(a.data, d, "case.json")))
     text = []
     with tempfile.TemporaryDirectory() as folder:
-        fits = [c for c in cases if len(rows_of(os.path.join(c, "markers.csv"))) > 1] if cases else []
+        fits = [c for c in cases if markers_of(c)]
         for method in a.fit:
             rows = []
             for case in fits:
