@@ -2,6 +2,7 @@
 
 #include "meshtween/core/error.h"
 #include "meshtween/fit/paper_fit.h"
+#include "meshtween/fit/surface_fit.h"
 #include "meshtween/geometry/measure.h"
 
 #include <fmt/format.h>
@@ -64,6 +65,8 @@ FitResult fit(const Mesh& source, const Mesh& target, std::span<const Marker> ma
     switch (options.method) {
     case FitMethod::paper:
         return paper_fit(source, target, markers, options, progress);
+    case FitMethod::surface:
+        return surface_fit(source, target, markers, options, progress);
     }
     throw Error(ErrorKind::argument, "no such way to fit");
 }

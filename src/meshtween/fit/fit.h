@@ -12,7 +12,8 @@
 namespace meshtween {
 
 enum class FitMethod {
-    paper, // marker warp, then rounds of smoothing and projection (Eq. 1-7)
+    paper,   // marker warp, then rounds of smoothing and projection (Eq. 1-7)
+    surface, // a thin shell posed by its markers and drawn onto the surface from coarse to fine
 };
 
 // Lengths are parts of the target's bounding-box diagonal.
@@ -33,6 +34,7 @@ struct FitResult {
     double error = 0;               // E of Eq. 7 at the end, in squared parts of the diagonal, summed over vertices
     std::vector<double> history;    // sqrt(E / n) of each round, parts of the diagonal, before its projection
     long refused_steps = 0;         // vertex moves shortened because they would have turned a triangle over
+    std::vector<double> weights;    // n, 0..1: how far to trust each vertex; 0 where nothing on the target answers to it
     std::vector<std::string> notes; // for people: what was unusual
 };
 

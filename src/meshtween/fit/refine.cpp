@@ -1,0 +1,206 @@
+// Closest points pull the shell onto the surface along its normal and let it slide along it, so that what lies where
+// is left to the shell's own shape.
+//
+// Chen, Medioni: Object modelling by registration of multiple range images. IVC 1992 (distance to the tangent plane).
+// Allen, Curless, Popovic: The space of human body shapes. SIGGRAPH 2003; Amberg, Romdhani, Vetter: Optimal step
+// nonrigid ICP algorithms for surface registration. CVPR 2007 (falling stiffness, borders that do not pull).
+// Li, Sumner, Pauly: Global correspondence optimization for non-rigid registration of depth scans. SGP 2008.
+#include "meshtween/fit/refine.h"
+
+#include "meshtween/core/parallel.h"
+#include "meshtween/geometry/measure.h"
+#include "meshtween/geometry/triangle_distance.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meshtween {
+namespace {
+
+using Eigen::Matrix3d;
+
+std::size_t idx(std::ptrdiff_t i) {
+    return static_cast<std::size_t>(i);
+}
+
+struct Pull {
+    Matrix3d block = Matrix3d::Zero();
+    Point right{0, 0, 0};
+    double trust = 0;
+};
+
+Pull pull(const FitTarget& target, const ClosestPoint& closest, const Point& normal, bool own_border, double weight,
+          const RelaxWeights& weights) {
+    Pull result;
+    if (!closest.found()) return result;
+    if (!own_border && on_border(target, closest.where)) return result;
+    Point n(0, 0, 0);
+    for (int k = 0; k < 3; ++k)
+        n += closest.where.barycentric[k] * target.normals.row(target.triangles(closest.where.triangle, k));
+    n.normalize();
+    result.trust = std::max(0.0, n.dot(normal));
+    result.block =
+        weight * result.trust * ((1 - weights.slide) * n.transpose() * n + weights.slide * Matrix3d::Identity());
+    result.right = closest.position * result.block;
+    return result;
+}
+
+SurfacePoint coarser_place(const ShellLevels& all, std::size_t finer, const SurfacePoint& place, const Point& query) {
+    const Level& coarse = all.levels[finer + 1];
+    const Topology& topology = all.shells[finer + 1].topology;
+    int corner = 0;
+    place.barycentric.maxCoeff(&corner);
+    const int vertex = all.levels[finer].triangles(place.triangle, corner);
+    const SurfacePoint& start = coarse.place[idx(vertex)];
+    SurfacePoint best;
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 3; ++k)
+        for (const int t : topology.vertex_triangles[coarse.triangles(start.triangle, k)]) {
+            const auto f = coarse.triangles.row(t);
+            const auto p = closest_on_triangle(query, coarse.positions.row(f[0]), coarse.positions.row(f[1]),
+                                               coarse.positions.row(f[2]));
+            if (p.squared_distance < least) least = p.squared_distance, best = {t, {1 - p.v - p.w, p.v, p.w}};
+        }
+    return best;
+}
+
+// The forms of one level with their weights; blocks are still nought, pins are in.
+BlockSystem level_system(const ShellLevels& shells, std::size_t level, const RelaxWeights& weights) {
+    const Shell& shell = shells.shells[level];
+    const double bending = std::pow(weights.length, 4), membrane = weights.membrane * weights.length * weights.length;
+    BlockSystem system;
+    system.pattern = shell.pattern;
+    system.values.resize(shell.bending.size());
+    for (std::size_t e = 0; e < system.values.size(); ++e)
+        system.values[e] = bending * shell.bending[e] + membrane * shell.membrane[e];
+    system.blocks.assign(shell.area.size(), Matrix3d::Zero());
+    const auto& pins = shells.pins[level];
+    for (const Pin& pin : pins)
+        for (int a = 0; a < 3; ++a)
+            for (int b = 0; b < 3; ++b) {
+                const int i = shell.triangles(pin.where.triangle, a), j = shell.triangles(pin.where.triangle, b);
+                system.values[shell.pattern->at(i, j)] += weights.pins / static_cast<double>(pins.size()) *
+                                                          pin.where.barycentric[a] * pin.where.barycentric[b];
+            }
+    return system;
+}
+
+void add_pins(const Shell& shell, const std::vector<Pin>& pins, const std::vector<Matrix3d>& frames, double weight,
+              Points& right) {
+    for (const Pin& pin : pins) {
+        Matrix3d frame = Matrix3d::Zero();
+        for (int k = 0; k < 3; ++k)
+            frame += pin.where.barycentric[k] * frames[idx(shell.triangles(pin.where.triangle, k))];
+        const Point goal = pin.target - pin.offset * frame.transpose();
+        for (int k = 0; k < 3; ++k)
+            right.row(shell.triangles(pin.where.triangle, k)) +=
+                weight / static_cast<double>(pins.size()) * pin.where.barycentric[k] * goal;
+    }
+}
+
+} // namespace
+
+FitTarget fit_target(const Points& positions, const Triangles& triangles) {
+    return {positions, triangles, vertex_normals(positions, triangles), topology(positions.rows(), triangles),
+            ClosestPointIndex(positions, triangles)};
+}
+
+ShellLevels shell_levels(const Points& rest, const Triangles& triangles, std::span<const Pin> pins,
+                         const HierarchyOptions& options) {
+    ShellLevels all;
+    all.levels = hierarchy(rest, triangles, options);
+    for (const Level& level : all.levels) all.shells.push_back(shell(level.positions, level.triangles));
+    for (std::size_t k = 1; k < all.levels.size(); ++k) {
+        std::vector<std::array<int, 3>> points;
+        std::vector<Eigen::RowVector3d> weights;
+        for (const SurfacePoint& p : all.levels[k].place) {
+            const auto f = all.levels[k].triangles.row(p.triangle);
+            points.push_back({f[0], f[1], f[2]});
+            weights.push_back(p.barycentric);
+        }
+        all.up.push_back(interpolation(all.levels[k].positions.rows(), std::move(points), std::move(weights)));
+    }
+    all.pins.resize(all.levels.size());
+    all.pins[0].assign(pins.begin(), pins.end());
+    for (std::size_t k = 1; k < all.levels.size(); ++k)
+        for (std::size_t i = 0; i < pins.size(); ++i) {
+            const Point at = position(rest, triangles, pins[i].where) + pins[i].offset;
+            Pin pin = pins[i];
+            pin.where = coarser_place(all, k - 1, all.pins[k - 1][i].where, at);
+            pin.offset = at - position(all.levels[k].positions, all.levels[k].triangles, pin.where);
+            all.pins[k].push_back(pin);
+        }
+    return all;
+}
+
+bool on_border(const FitTarget& target, const SurfacePoint& p) {
+    constexpr double touching = 1e-9;
+    int inside = 0, corner = 0;
+    for (int k = 0; k < 3; ++k)
+        if (p.barycentric[k] > touching) ++inside, corner = k;
+    const auto flag = [&](int k) { return target.topology.on_boundary[idx(target.triangles(p.triangle, k))] != 0; };
+    if (inside == 3) return false;
+    if (inside == 1) return flag(corner);
+    for (int k = 0; k < 3; ++k)
+        if (p.barycentric[k] <= touching) return flag((k + 1) % 3) && flag((k + 2) % 3);
+    return false;
+}
+
+Relaxed relax(const ShellLevels& shells, std::size_t level, const Points& positions, const FitTarget& target,
+              const RelaxWeights& weights, std::vector<int>& hints) {
+    const Shell& shell = shells.shells[level];
+    const auto n = positions.rows();
+    Relaxed result{positions, std::vector<double>(idx(n), 0.0), 0};
+    const auto frames = local_frames(shell, positions, weights.smoothing, weights.with_scale);
+    std::vector<BlockSystem> systems{level_system(shells, level, weights)};
+    Points right =
+        rest_force(shell, frames, std::pow(weights.length, 4), weights.membrane * weights.length * weights.length);
+    add_pins(shell, shells.pins[level], frames, weights.pins, right);
+    if (weights.closeness > 0) {
+        const Points normals = vertex_normals(positions, shell.triangles);
+        hints.resize(idx(n), -1);
+        parallel_for(
+            n,
+            [&](std::ptrdiff_t i) {
+                const Compatible compatible{normals.row(i), weights.least_cosine};
+                const ClosestPoint closest =
+                    target.index.closest(Point(positions.row(i)), compatible, weights.reach, hints[idx(i)]);
+                if (closest.found()) hints[idx(i)] = closest.where.triangle;
+                const Pull p = pull(target, closest, normals.row(i), shell.topology.on_boundary[idx(i)],
+                                    weights.closeness * shell.area[idx(i)], weights);
+                systems[0].blocks[idx(i)] = p.block;
+                right.row(i) += p.right;
+                result.trust[idx(i)] = p.trust;
+            },
+            256);
+    }
+    for (std::size_t k = level + 1; k < shells.levels.size(); ++k) {
+        systems.push_back(level_system(shells, k, weights));
+        systems.back().blocks = to_coarse(shells.up[k - 1], systems[systems.size() - 2].blocks);
+    }
+    const Multigrid solver(std::move(systems), shells.up, level);
+    result.iterations = solver.solve(right, result.positions, weights.iterations, 1e-3).iterations;
+    return result;
+}
+
+Points refine_positions(const ShellLevels& shells, std::size_t level, const Points& positions, bool with_scale) {
+    const Shell& coarse = shells.shells[level];
+    const Points& rest = shells.levels[level - 1].positions;
+    const auto frames = local_frames(coarse, positions, 0, with_scale);
+    Points finer(rest.rows(), 3);
+    parallel_for(rest.rows(), [&](std::ptrdiff_t i) {
+        const SurfacePoint& place = shells.levels[level].place[idx(i)];
+        Point sum(0, 0, 0);
+        for (int k = 0; k < 3; ++k) {
+            const int c = coarse.triangles(place.triangle, k);
+            sum += place.barycentric[k] *
+                   (positions.row(c) + (rest.row(i) - coarse.rest.row(c)) * frames[idx(c)].transpose());
+        }
+        finer.row(i) = sum;
+    });
+    return finer;
+}
+
+} // namespace meshtween

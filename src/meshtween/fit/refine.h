@@ -1,0 +1,73 @@
+// A mesh drawn onto a surface as a thin shell that keeps its shape as far as the surface lets it.
+#pragma once
+
+#include "meshtween/core/mesh.h"
+#include "meshtween/core/progress.h"
+#include "meshtween/fit/hierarchy.h"
+#include "meshtween/fit/shell.h"
+#include "meshtween/search/closest_point.h"
+#include "meshtween/solve/block_system.h"
+
+#include <span>
+#include <vector>
+
+namespace meshtween {
+
+// What is fitted to. Lengths are parts of its diagonal: the caller scales.
+struct FitTarget {
+    Points positions;
+    Triangles triangles;
+    Points normals; // a vertex, unit
+    Topology topology;
+    ClosestPointIndex index;
+};
+FitTarget fit_target(const Points& positions, const Triangles& triangles);
+
+// True where a point lies on the target's border: what has its closest point there may have no counterpart.
+bool on_border(const FitTarget& target, const SurfacePoint& point);
+
+// A point of the mesh that belongs at a place in space.
+struct Pin {
+    SurfacePoint where;
+    Point offset{0, 0, 0}; // from there to the point, on the rest shape: coarse levels do not pass through it
+    Point target{0, 0, 0};
+};
+
+// The template on every level, finest first.
+struct ShellLevels {
+    std::vector<Level> levels;
+    std::vector<Shell> shells;
+    std::vector<Interpolation> up;      // up[k] leads from level k + 1 to level k
+    std::vector<std::vector<Pin>> pins; // a list a level
+};
+ShellLevels shell_levels(const Points& rest, const Triangles& triangles, std::span<const Pin> pins,
+                         const HierarchyOptions& options = {});
+
+struct RelaxWeights {
+    double length = 0.1;    // bending against closeness: features shorter than this (in diagonals) are followed
+    double membrane = 1e-3; // of the membrane energy, times length squared
+    double slide = 0.02;    // of pulls along the surface beside pulls onto it: 0 slides freely, 1 holds
+    double pins = 100;      // of all pins together, beside the closeness of the whole surface
+    double closeness = 1;   // 0 leaves the surface out: only the pins pull
+    double least_cosine = 0.5;
+    double reach = 0.3;     // closest points further away are not asked
+    int smoothing = 5;      // rounds, of the local frames
+    bool with_scale = true; // local frames may grow and shrink
+    int iterations = 20;    // of the solver, at most
+};
+
+struct Relaxed {
+    Points positions;
+    std::vector<double> trust; // n: how well each vertex's closest point was compatible, 0..1
+    int iterations = 0;
+};
+
+// Rounds of the same kind on one level, each finding closest points and solving for the shell once. `hints` are last
+// answers, one a vertex or empty, and are brought up to date.
+Relaxed relax(const ShellLevels& shells, std::size_t level, const Points& positions, const FitTarget& target,
+              const RelaxWeights& weights, std::vector<int>& hints);
+
+// Positions on the next finer level: each vertex goes with the frames of the places it lies on.
+Points refine_positions(const ShellLevels& shells, std::size_t level, const Points& positions, bool with_scale);
+
+} // namespace meshtween

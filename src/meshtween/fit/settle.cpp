@@ -1,0 +1,131 @@
+// Projection with a guard. Refusing steps that turn triangles over: as in research on remeshing (Botsch, Kobbelt: A
+// remeshing approach to multiresolution modeling, SGP 2004), here by halving the step.
+#include "meshtween/fit/settle.h"
+
+#include "meshtween/core/parallel.h"
+#include "meshtween/geometry/measure.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+
+namespace meshtween {
+namespace {
+
+std::size_t idx(std::ptrdiff_t i) {
+    return static_cast<std::size_t>(i);
+}
+
+struct Goals {
+    Points positions, normals; // normals are zero where there is none
+};
+
+Goals goals(const Shell& shell, const Points& positions, const FitTarget& target, const SettleOptions& options) {
+    Goals result{positions, Points::Zero(positions.rows(), 3)};
+    const Points normals = vertex_normals(positions, shell.triangles);
+    parallel_for(
+        positions.rows(),
+        [&](std::ptrdiff_t i) {
+            const Compatible compatible{normals.row(i), options.least_cosine};
+            const ClosestPoint closest = target.index.closest(Point(positions.row(i)), compatible, options.reach);
+            if (!closest.found()) return;
+            if (shell.topology.on_boundary[idx(i)] == 0 && on_border(target, closest.where)) return;
+            result.positions.row(i) = closest.position;
+            result.normals.row(i) = target.index.normals().row(closest.where.triangle);
+        },
+        256);
+    return result;
+}
+
+// The steps shortened until no triangle that looked along the surface's normals at its corners looks against them.
+Points guarded(const Shell& shell, const Points& from, const Goals& to, long& refused) {
+    const Triangles& triangles = shell.triangles;
+    std::vector<double> share(idx(from.rows()), 1.0);
+    Points now = to.positions;
+    std::vector<char> bad(idx(triangles.rows()));
+    constexpr int halvings = 4;
+    for (int round = 0; round <= halvings; ++round) {
+        parallel_for(triangles.rows(), [&](std::ptrdiff_t t) {
+            const Point outward =
+                to.normals.row(triangles(t, 0)) + to.normals.row(triangles(t, 1)) + to.normals.row(triangles(t, 2));
+            bad[idx(t)] = double_area_normal(now, triangles, t).dot(outward) < 0 &&
+                          double_area_normal(from, triangles, t).dot(outward) > 0;
+        });
+        std::vector<char> shorten(share.size(), 0);
+        for (std::ptrdiff_t t = 0; t < triangles.rows(); ++t)
+            if (bad[idx(t)])
+                for (int k = 0; k < 3; ++k) shorten[idx(triangles(t, k))] = 1;
+        bool any = false;
+        for (std::size_t i = 0; i < share.size(); ++i) {
+            if (!shorten[i]) continue;
+            any = true;
+            share[i] = round == halvings ? 0 : share[i] / 2;
+            const auto row = static_cast<Eigen::Index>(i);
+            now.row(row) = from.row(row) + share[i] * (to.positions.row(row) - from.row(row));
+        }
+        if (!any) break;
+    }
+    for (const double s : share) refused += s < 1;
+    return now;
+}
+
+// Vertices of these triangles and of their neighbours go halfway to the mean of theirs.
+Points relaxed_around(const Shell& shell, const Points& positions, const std::vector<int>& triangles, int rings) {
+    std::vector<char> chosen(idx(positions.rows()), 0);
+    for (const int t : triangles)
+        for (int k = 0; k < 3; ++k) chosen[idx(shell.triangles(t, k))] = 1;
+    for (int ring = 0; ring < rings; ++ring) {
+        std::vector<char> wider = chosen;
+        for (std::ptrdiff_t i = 0; i < positions.rows(); ++i)
+            if (chosen[idx(i)])
+                for (const int j : shell.topology.neighbours[i]) wider[idx(j)] = 1;
+        chosen.swap(wider);
+    }
+    Points result = positions;
+    for (std::ptrdiff_t i = 0; i < positions.rows(); ++i) {
+        const auto list = shell.topology.neighbours[i];
+        if (!chosen[idx(i)] || list.empty() || shell.topology.on_boundary[idx(i)]) continue;
+        Point mean(0, 0, 0);
+        for (const int j : list) mean += positions.row(j);
+        result.row(i) = 0.5 * (positions.row(i) + mean / static_cast<double>(list.size()));
+    }
+    return result;
+}
+
+} // namespace
+
+std::vector<int> flipped_triangles(const Points& positions, const Triangles& triangles, const FitTarget& target) {
+    std::vector<char> flag(idx(triangles.rows()), 0);
+    parallel_for(
+        triangles.rows(),
+        [&](std::ptrdiff_t t) {
+            const Point centre =
+                (positions.row(triangles(t, 0)) + positions.row(triangles(t, 1)) + positions.row(triangles(t, 2))) / 3;
+            const int there = target.index.closest(centre).where.triangle;
+            flag[idx(t)] = double_area_normal(positions, triangles, t).dot(target.index.normals().row(there)) < 0;
+        },
+        256);
+    std::vector<int> flipped;
+    for (std::size_t t = 0; t < flag.size(); ++t)
+        if (flag[t]) flipped.push_back(static_cast<int>(t));
+    return flipped;
+}
+
+Settled settle(const Shell& shell, const Points& positions, const FitTarget& target, const SettleOptions& options) {
+    Settled result;
+    result.positions = guarded(shell, positions, goals(shell, positions, target, options), result.refused_steps);
+    result.flipped = flipped_triangles(result.positions, shell.triangles, target);
+    Points trial = result.positions;
+    for (int round = 0; round < options.mending_rounds && !result.flipped.empty(); ++round) {
+        trial = relaxed_around(shell, trial, flipped_triangles(trial, shell.triangles, target), 1);
+        long ignored = 0;
+        trial = guarded(shell, trial, goals(shell, trial, target, options), ignored);
+        std::vector<int> left = flipped_triangles(trial, shell.triangles, target);
+        if (left.size() >= result.flipped.size()) continue;
+        result.flipped = std::move(left);
+        result.positions = trial;
+    }
+    return result;
+}
+
+} // namespace meshtween

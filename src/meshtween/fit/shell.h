@@ -1,0 +1,47 @@
+// A mesh as a thin shell: what it costs to bend it, and how each place of it has turned.
+#pragma once
+
+#include "meshtween/core/mesh.h"
+#include "meshtween/geometry/topology.h"
+#include "meshtween/solve/block_system.h"
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace meshtween {
+
+// An edge with the two triangles on it. coefficients . positions is the jump of the gradient across the edge, times
+// its length: nought for any linear function of a plane.
+struct Hinge {
+    std::array<int, 4> vertices{}; // the edge's ends, then the corners across it
+    std::array<double, 4> coefficients{};
+    double weight = 0; // 3 / (area of both triangles), over the whole mesh's area
+};
+
+// Energies are means over the surface, so that they do not depend on how finely it is cut into triangles.
+struct Shell {
+    Points rest; // n x 3
+    Triangles triangles;
+    Topology topology;
+    Points normals;                         // n x 3, of the rest shape
+    std::vector<double> area;               // n: share of the whole area
+    std::vector<double> edge_weights;       // one an item of topology.neighbours: cotangent weights, kept positive
+    std::vector<Hinge> hinges;              // one an inner edge
+    std::shared_ptr<const Pattern> pattern; // entries of both quadratic forms below
+    std::vector<double> bending;            // sum over hinges of weight coefficients coefficients^T
+    std::vector<double> membrane;           // the cotangent Laplacian over the whole area
+};
+
+Shell shell(const Points& rest, const Triangles& triangles);
+
+// How each vertex's neighbourhood lies after a deformation: a rotation times a scale (with_scale) or a rotation, the
+// best one for the edges around it after `smoothing` rounds of averaging with its neighbours. n.
+std::vector<Eigen::Matrix3d> local_frames(const Shell& shell, const Points& positions, int smoothing, bool with_scale);
+
+// The right side that goes with  bending_weight E_b + membrane_weight E_m,  where E_b asks each hinge to keep its rest
+// value turned by its frame and E_m asks each edge to. n x 3.
+Points rest_force(const Shell& shell, const std::vector<Eigen::Matrix3d>& frames, double bending_weight,
+                  double membrane_weight);
+
+} // namespace meshtween

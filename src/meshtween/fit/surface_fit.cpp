@@ -1,0 +1,139 @@
+// From coarse to fine: few vertices first find the pose, then each finer level follows smaller features. The weight of
+// bending falls as the fourth power of a length, from a fifth of the target to less than a thousandth; in the limit the
+// shell lies on the surface and its bending alone says where along it each vertex goes.
+//
+// The stages and their papers are in align, shell, refine and settle.
+#include "meshtween/fit/surface_fit.h"
+
+#include "meshtween/core/error.h"
+#include "meshtween/fit/align.h"
+#include "meshtween/fit/refine.h"
+#include "meshtween/fit/settle.h"
+#include "meshtween/geometry/measure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meshtween {
+namespace {
+
+constexpr double first_length = 0.2, last_length = 0.0015; // of the shell: features that it follows, in diagonals
+constexpr int rounds_a_level = 8;
+constexpr int articulation_rounds = 40;     // with the markers alone, on the coarsest level
+constexpr double articulation_still = 1e-4; // stop where no vertex moves further, in diagonals
+
+struct Frame { // the target's: everything is computed in coordinates where its diagonal is 1
+    Point origin{0, 0, 0};
+    double diagonal = 1;
+    Points in(const Points& x) const { return (x.rowwise() - origin) / diagonal; }
+    Points out(const Points& x) const { return ((x * diagonal).rowwise() + origin).eval(); }
+};
+
+Similarity start(const Mesh& source, const Points& target, const Triangles& target_triangles,
+                 std::span<const Marker> markers, const Points& goals, std::vector<std::string>& notes) {
+    if (markers.empty()) {
+        notes.push_back("no markers: the start is a guess from the principal axes; look at the result, and place a few "
+                        "markers if it is turned the wrong way");
+        return align_axes(source.positions, source.triangles, target, target_triangles);
+    }
+    Points from(goals.rows(), 3);
+    for (std::size_t k = 0; k < markers.size(); ++k)
+        from.row(static_cast<Eigen::Index>(k)) = position(source.positions, source.triangles, markers[k].source);
+    if (markers.size() >= 3) return align(from, goals);
+    notes.push_back(fmt::format("{} marker{}: turn and size are taken from the shapes' extents", markers.size(),
+                                markers.size() == 1 ? "" : "s"));
+    Similarity s = align_axes(source.positions, source.triangles, target, target_triangles);
+    s.translation += (goals - s(from)).colwise().mean();
+    return s;
+}
+
+// The pose: as rigid as possible with the markers held, before anything is asked of the surface.
+Points articulate(const ShellLevels& shells, const FitTarget& target) {
+    const std::size_t coarsest = shells.levels.size() - 1;
+    Points x = shells.levels[coarsest].positions;
+    if (shells.pins[coarsest].size() < 3) return x;
+    RelaxWeights weights;
+    weights.closeness = 0;
+    weights.length = 0.1;
+    weights.membrane = 1;
+    weights.smoothing = 0;
+    weights.with_scale = false;
+    std::vector<int> hints;
+    for (int round = 0; round < articulation_rounds; ++round) {
+        Points next = relax(shells, coarsest, x, target, weights, hints).positions;
+        const double moved = (next - x).rowwise().norm().maxCoeff();
+        x = std::move(next);
+        if (moved < articulation_still) break;
+    }
+    return x;
+}
+
+void measure_markers(const Points& x, const Mesh& source, std::span<const Marker> markers, const Points& goals,
+                     FitResult& result) {
+    for (std::size_t k = 0; k < markers.size(); ++k) {
+        const double off =
+            (position(x, source.triangles, markers[k].source) - goals.row(static_cast<Eigen::Index>(k))).norm();
+        if (off > 0.01)
+            result.notes.push_back(fmt::format("marker '{}' ends {:.1f} % of the diagonal from its place: is it right?",
+                                               markers[k].name, 100 * off));
+    }
+}
+
+} // namespace
+
+FitResult surface_fit(const Mesh& source, const Mesh& target_mesh, std::span<const Marker> markers, const FitOptions&,
+                      const Progress& progress) {
+    FitResult result;
+    const Frame frame{target_mesh.positions.colwise().mean(), diagonal(target_mesh.positions)};
+    const FitTarget target = fit_target(frame.in(target_mesh.positions), target_mesh.triangles);
+    Points goals(static_cast<Eigen::Index>(markers.size()), 3);
+    for (std::size_t k = 0; k < markers.size(); ++k)
+        goals.row(static_cast<Eigen::Index>(k)) = (markers[k].target - frame.origin) / frame.diagonal;
+    const Points rest =
+        start(source, target.positions, target.triangles, markers, goals, result.notes)(source.positions);
+    std::vector<Pin> pins;
+    for (std::size_t k = 0; k < markers.size(); ++k)
+        pins.push_back({markers[k].source, {0, 0, 0}, goals.row(static_cast<Eigen::Index>(k))});
+    const ShellLevels shells = shell_levels(rest, source.triangles, pins, {250, 4});
+
+    const std::size_t levels = shells.levels.size();
+    bool going = keep_going(progress, 0.1, "posing");
+    Points x = articulate(shells, target);
+    const int rounds = rounds_a_level * static_cast<int>(levels);
+    const double rate = std::pow(last_length / first_length, 1.0 / (rounds - 1));
+    RelaxWeights weights;
+    weights.length = first_length;
+    double done = 0, work = 0; // in vertices seen, for the progress
+    for (const Level& level : shells.levels) work += static_cast<double>(level.positions.rows()) * rounds_a_level;
+    for (std::size_t k = levels; k-- > 0;) {
+        std::vector<int> hints;
+        for (int round = 0; round < rounds_a_level; ++round, weights.length *= rate) {
+            going = going && keep_going(progress, 0.15 + 0.8 * done / work, "fitting");
+            if (!going) break;
+            Relaxed relaxed = relax(shells, k, x, target, weights, hints);
+            x = std::move(relaxed.positions);
+            result.weights = std::move(relaxed.trust);
+            done += static_cast<double>(x.rows());
+            ++result.rounds;
+        }
+        if (k > 0) x = refine_positions(shells, k, x, weights.with_scale);
+    }
+    if (going) {
+        Settled settled = settle(shells.shells[0], x, target);
+        x = std::move(settled.positions);
+        result.refused_steps = settled.refused_steps;
+        if (!settled.flipped.empty())
+            result.notes.push_back(fmt::format("{} triangles look into the target's surface, the first of them {}",
+                                               settled.flipped.size(), settled.flipped.front()));
+    }
+    measure_markers(x, source, markers, goals, result);
+    result.positions = frame.out(x);
+    result.weights.resize(static_cast<std::size_t>(x.rows()), 0.0);
+    result.end = going ? FitEnd::converged : FitEnd::cancelled;
+    keep_going(progress, 1, "done");
+    return result;
+}
+
+} // namespace meshtween

@@ -1,0 +1,69 @@
+// Symmetric systems over points: scalar couplings between vertices, full 3 x 3 blocks on the diagonal.
+#pragma once
+
+#include "meshtween/core/mesh.h"
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <vector>
+
+namespace meshtween {
+
+// Where a symmetric n x n matrix has entries, row by row, columns ascending; every row has its diagonal.
+struct Pattern {
+    std::vector<int> first{0}, column;
+    std::vector<int> diagonal; // n: where entry (i, i) stands in `column`
+    std::ptrdiff_t size() const { return static_cast<std::ptrdiff_t>(first.size()) - 1; }
+    std::size_t at(int row, int col) const; // the entry must exist
+};
+
+// Sorts and rids of doubles the lists of columns, a list a row; diagonals are added.
+Pattern pattern(std::vector<std::vector<int>> rows);
+
+// Block (i, j) is values(i, j) times the identity, plus blocks[i] where i = j.
+struct BlockSystem {
+    std::shared_ptr<const Pattern> pattern;
+    std::vector<double> values;          // one an entry of the pattern
+    std::vector<Eigen::Matrix3d> blocks; // n, symmetric
+};
+
+Points apply(const BlockSystem& system, const Points& x); // n x 3: the matrix times x
+
+// Values on a coarse set of points, and what they are on a finer one: fine_i = sum_k weight_ik coarse_(point_ik).
+struct Interpolation {
+    std::vector<std::array<int, 3>> points; // a row a fine point
+    std::vector<Eigen::RowVector3d> weights;
+    std::vector<int> first{0}, fine, slot; // of each coarse point: the fine points that it reaches
+};
+Interpolation interpolation(std::ptrdiff_t coarse_count, std::vector<std::array<int, 3>> points,
+                            std::vector<Eigen::RowVector3d> weights);
+Points to_fine(const Interpolation& interpolation, const Points& coarse);
+Points to_coarse(const Interpolation& interpolation, const Points& fine); // the transpose
+// The blocks of a coarser system: each fine block shared out by its weights (the transpose, lumped).
+std::vector<Eigen::Matrix3d> to_coarse(const Interpolation& interpolation, const std::vector<Eigen::Matrix3d>& fine);
+
+struct SolveSummary {
+    int iterations = 0;
+    double reduction = 1; // of the preconditioned residual's norm
+};
+
+// One system on several grids, finest first, prepared to be solved.
+class Multigrid {
+public:
+    // interpolations[k] leads from grid k + 1 to grid k and must outlive this. The coarsest is factorised. Throws
+    // Error(computation) where that one is not positive definite.
+    Multigrid(std::vector<BlockSystem> systems, const std::vector<Interpolation>& interpolations, std::size_t offset);
+    ~Multigrid();
+    Multigrid(Multigrid&&) noexcept;
+
+    // Conjugate gradients with one V-cycle as the preconditioner, from x on, until the residual has fallen by
+    // `tolerance` or after max_iterations. The same bits for any number of threads.
+    SolveSummary solve(const Points& right, Points& x, int max_iterations, double tolerance) const;
+
+private:
+    struct Data;
+    std::unique_ptr<Data> data_;
+};
+
+} // namespace meshtween

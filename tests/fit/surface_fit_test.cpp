@@ -1,0 +1,171 @@
+#include "meshtween/fit/surface_fit.h"
+
+#include "meshtween/core/parallel.h"
+#include "meshtween/fit/align.h"
+#include "meshtween/fit/hierarchy.h"
+#include "meshtween/fit/settle.h"
+#include "meshtween/fit/shell.h"
+#include "meshtween/geometry/measure.h"
+#include "meshtween/geometry/shapes.h"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+using namespace meshtween;
+
+namespace {
+
+// A bar whose sides all differ, so that it looks the same in one way only.
+Mesh block() {
+    return bar({1, 0.4, 0.25}, {16, 6, 4}, 0.05);
+}
+
+Points spin(const Points& points) {
+    return turn(points, {1, 2, 3}, 2.0);
+}
+
+std::vector<Marker> vertex_markers(const Mesh& source, const Points& goals, int count) {
+    std::vector<Marker> markers;
+    for (int k = 0; k < count; ++k) {
+        const auto t = static_cast<int>(k * source.triangles.rows() / count);
+        markers.push_back({"m" + std::to_string(k), {t, {1, 0, 0}}, goals.row(source.triangles(t, 0))});
+    }
+    return markers;
+}
+
+double worst(const Points& a, const Points& b) {
+    return (a - b).rowwise().norm().maxCoeff();
+}
+
+TEST(Align, RecoversASimilarity) {
+    const Mesh m = block();
+    const Points to = (2.5 * spin(m.positions)).rowwise() + Point(3, -4, 5);
+    const Similarity s = align(m.positions, to);
+    EXPECT_NEAR(s.scale, 2.5, 1e-12);
+    EXPECT_LT(worst(s(m.positions), to), 1e-12);
+}
+
+TEST(Align, AMirrorImageIsNotASimilarity) {
+    const Mesh m = block();
+    Points to = m.positions;
+    to.col(0) *= -1;
+    EXPECT_NEAR(align(m.positions, to).rotation.determinant(), 1, 1e-12);
+}
+
+TEST(Align, OnePointMoves) {
+    const Points from = Point(1, 2, 3), to = Point(4, 4, 4);
+    EXPECT_LT(worst(align(from, to)(from), to), 1e-12);
+}
+
+TEST(Align, AxesFindATurnedCopy) {
+    Mesh m = block();
+    for (Eigen::Index i = 0; i < m.positions.rows(); ++i)
+        if (m.positions(i, 0) > 0.5)
+            m.positions.row(i).tail<2>() *= m.positions(i, 1) > 0 ? 2.5 : 1.5; // no symmetry left
+    const Points to = (0.5 * spin(m.positions)).rowwise() + Point(1, 1, 1);
+    EXPECT_LT(worst(align_axes(m.positions, m.triangles, to, m.triangles)(m.positions), to), 1e-9);
+}
+
+TEST(Hierarchy, LevelsLieOnTheMeshAndPlacesAreNear) {
+    const Mesh m = sphere(5);
+    const auto levels = hierarchy(m.positions, m.triangles, {100, 4});
+    ASSERT_GE(levels.size(), 3u);
+    for (std::size_t k = 1; k < levels.size(); ++k) {
+        const Level& level = levels[k];
+        for (std::size_t i = 0; i < level.finer.size(); ++i)
+            EXPECT_EQ(level.positions.row(static_cast<Eigen::Index>(i)), levels[k - 1].positions.row(level.finer[i]));
+        EXPECT_GT(volume(level.positions, level.triangles), 0.75 * 4 * std::numbers::pi / 3);
+        ASSERT_EQ(level.place.size(), static_cast<std::size_t>(levels[k - 1].positions.rows()));
+        for (std::size_t i = 0; i < level.place.size(); ++i)
+            EXPECT_LT((position(level.positions, level.triangles, level.place[i]) -
+                       levels[k - 1].positions.row(static_cast<Eigen::Index>(i)))
+                          .norm(),
+                      0.3);
+    }
+}
+
+TEST(Shell, BendingIsBlindToLinearMapsOfAPlaneAndOpenBordersToo) {
+    Mesh m = bar({1, 1, 0.5}, {6, 6, 2});
+    Triangles top(m.triangles.rows(), 3);
+    Eigen::Index count = 0;
+    for (Eigen::Index t = 0; t < m.triangles.rows(); ++t)
+        if (triangle_normals(m.positions, m.triangles)(t, 2) > 0.9) top.row(count++) = m.triangles.row(t);
+    top.conservativeResize(count, 3);
+    const Shell s = shell(m.positions, top);
+    BlockSystem system{s.pattern, s.bending, std::vector<Eigen::Matrix3d>(s.area.size(), Eigen::Matrix3d::Zero())};
+    Eigen::Matrix3d map;
+    map << 2, 0.3, 0, -1, 0.5, 0, 0.7, 0.2, 1;
+    EXPECT_LT(apply(system, m.positions * map).norm(), 1e-9);
+    Points bent = m.positions;
+    bent.col(2) += m.positions.col(0).cwiseProduct(m.positions.col(1)); // a saddle, whose Laplacian is nought
+    EXPECT_GT(bent.cwiseProduct(apply(system, bent)).sum(), 0.1);
+}
+
+TEST(Shell, FramesOfATurnedShapeAreTheTurn) {
+    const Mesh m = block();
+    const Shell s = shell(m.positions, m.triangles);
+    const Eigen::Matrix3d turned = 2 * Eigen::AngleAxisd(2.0, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+    for (const auto& frame : local_frames(s, 2 * spin(m.positions), 3, true)) EXPECT_LT((frame - turned).norm(), 1e-9);
+}
+
+TEST(SurfaceFit, AMeshOnItselfStays) {
+    const Mesh m = block();
+    const FitResult r = surface_fit(m, m, vertex_markers(m, m.positions, 8));
+    EXPECT_LT(worst(r.positions, m.positions), 1e-6);
+}
+
+TEST(SurfaceFit, FindsATurnedAndScaledCopy) {
+    const Mesh m = block();
+    Mesh target = m;
+    target.positions = (3 * spin(m.positions)).rowwise() + Point(10, 0, -5);
+    const FitResult r = surface_fit(m, target, vertex_markers(m, target.positions, 6));
+    EXPECT_LT(worst(r.positions, target.positions), 1e-6 * diagonal(target.positions));
+}
+
+TEST(SurfaceFit, PosesABentBar) {
+    const Mesh m = bar({1, 0.2, 0.15}, {30, 6, 5}, 0.03), finer = bar({1, 0.2, 0.15}, {45, 8, 6}, 0.03);
+    Mesh target = finer;
+    target.positions = bend(finer.positions, 1, std::numbers::pi / 2);
+    const Points truth = bend(m.positions, 1, std::numbers::pi / 2);
+    const FitResult r = surface_fit(m, target, vertex_markers(m, truth, 24));
+    EXPECT_LT((r.positions - truth).rowwise().norm().mean(), 0.01 * diagonal(target.positions));
+    EXPECT_TRUE(flipped_triangles(r.positions, m.triangles, fit_target(target.positions, target.triangles)).empty());
+}
+
+TEST(SurfaceFit, TheSameBitsWithAnyNumberOfThreads) {
+    const Mesh m = sphere(4);
+    Mesh target = sphere(4);
+    target.positions.col(0) *= 1.3;
+    target.positions.col(1) += 0.1 * target.positions.col(0).cwiseAbs2();
+    const auto markers = vertex_markers(m, target.positions, 10);
+    set_threads(1);
+    const FitResult one = surface_fit(m, target, markers);
+    set_threads(2);
+    const FitResult two = surface_fit(m, target, markers);
+    set_threads(0);
+    EXPECT_EQ(one.positions, two.positions);
+}
+
+TEST(SurfaceFit, CancelledAtAnyMomentItReturnsAWholeMesh) {
+    const Mesh m = sphere(4);
+    for (const int calls : {0, 3, 12}) {
+        int left = calls;
+        const FitResult r = surface_fit(m, m, vertex_markers(m, m.positions, 5), {},
+                                        [&](double, std::string_view) { return left-- > 0; });
+        EXPECT_EQ(r.end, FitEnd::cancelled);
+        EXPECT_EQ(r.positions.rows(), m.positions.rows());
+        EXPECT_TRUE(r.positions.allFinite());
+    }
+}
+
+TEST(SurfaceFit, WithoutMarkersItSaysThatTheStartIsAGuess) {
+    const Mesh m = block();
+    const FitResult r = surface_fit(m, m, {});
+    ASSERT_FALSE(r.notes.empty());
+    EXPECT_NE(r.notes.front().find("guess"), std::string::npos);
+    EXPECT_TRUE(r.positions.allFinite());
+}
+
+} // namespace
