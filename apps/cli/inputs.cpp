@@ -51,10 +51,12 @@ std::vector<Output> load_outputs(const std::vector<std::string>& names) {
 }
 
 void add_fit_flags(CLI::App& verb, FitFlags& flags) {
-    static const std::map<std::string, FitMethod> methods{{"paper", FitMethod::paper}};
-    verb.add_option("--fit", flags.options.method, "How to fit: paper (warp, then smooth and project)")
+    static const std::map<std::string, FitMethod> methods{{"paper", FitMethod::paper}, {"surface", FitMethod::surface}};
+    verb.add_option("--fit", flags.options.method,
+                    "How to fit: surface (a thin shell posed by the markers, then drawn onto the "
+                    "surface from coarse to fine) or paper (warp, then smooth and project)")
         ->transform(CLI::CheckedTransformer(methods))
-        ->default_str("paper");
+        ->default_str("surface");
     verb.add_option("--kernel", flags.kernel, "Of the marker warp: thin-plate (r^2 log r) or linear (r)")
         ->check(CLI::IsMember({"thin-plate", "linear"}))
         ->capture_default_str();

@@ -18,7 +18,7 @@ enum class FitMethod {
 
 // Lengths are parts of the target's bounding-box diagonal.
 struct FitOptions {
-    FitMethod method = FitMethod::paper;
+    FitMethod method = FitMethod::surface;
     RbfOptions warp;           // of the marker warp
     int max_rounds = 40;       // of smoothing and projection
     double threshold = 1e-4;   // stop where sqrt(E / n), E of Eq. 7 before a round's projection, falls under this

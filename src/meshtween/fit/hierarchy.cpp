@@ -212,17 +212,16 @@ Level remaining(const Decimation& decimation, const Points& positions, const std
     return level;
 }
 
-// The closest place among the triangles of `start` and of its neighbours; a vertex of no triangle has none.
+// The closest place among the triangles of `start` and of its neighbours.
 SurfacePoint local_place(const Level& level, const Topology& topology, int start, const Point& query) {
-    SurfacePoint best;
+    SurfacePoint best{0, {1, 0, 0}}; // kept by a vertex of no triangle
     double least = std::numeric_limits<double>::infinity();
     const auto look = [&](int vertex) {
         for (const int t : topology.vertex_triangles[vertex]) {
             const auto corners = level.triangles.row(t);
             const auto p = closest_on_triangle(query, level.positions.row(corners[0]), level.positions.row(corners[1]),
                                                level.positions.row(corners[2]));
-            if (best.triangle < 0 || p.squared_distance < least)
-                least = p.squared_distance, best = {t, {1 - p.v - p.w, p.v, p.w}};
+            if (p.squared_distance < least) least = p.squared_distance, best = {t, {1 - p.v - p.w, p.v, p.w}};
         }
     };
     look(start);

@@ -44,11 +44,11 @@ ShellLevels shell_levels(const Points& rest, const Triangles& triangles, std::sp
                          const HierarchyOptions& options = {});
 
 struct RelaxWeights {
-    double length = 0.1;    // bending against closeness: features shorter than this (in diagonals) are followed
-    double membrane = 1e-3; // of the membrane energy, times length squared
-    double slide = 0.02;    // of pulls along the surface beside pulls onto it: 0 slides freely, 1 holds
-    double pins = 100;      // of all pins together, beside the closeness of the whole surface
-    double closeness = 1;   // 0 leaves the surface out: only the pins pull
+    double length = 0.1;   // bending against closeness: features shorter than this (in diagonals) are followed
+    double membrane = 0.1; // of the membrane energy, times length squared
+    double slide = 0.02;   // of pulls along the surface beside pulls onto it: 0 slides freely, 1 holds
+    double pins = 100;     // of all pins together, beside the closeness of the whole surface
+    double closeness = 1;  // 0 leaves the surface out: only the pins pull
     double least_cosine = 0.5;
     double reach = 0.3;     // closest points further away are not asked
     int smoothing = 5;      // rounds, of the local frames

@@ -128,6 +128,8 @@ FitResult surface_fit(const Mesh& source, const Mesh& target_mesh, std::span<con
             result.notes.push_back(fmt::format("{} triangles look into the target's surface, the first of them {}",
                                                settled.flipped.size(), settled.flipped.front()));
     }
+    for (Eigen::Index i = 0; i < x.rows(); ++i) // vertices of no triangle go where the similarity takes them
+        if (shells.shells[0].topology.vertex_triangles[i].empty()) x.row(i) = rest.row(i);
     measure_markers(x, source, markers, goals, result);
     result.positions = frame.out(x);
     result.weights.resize(static_cast<std::size_t>(x.rows()), 0.0);
