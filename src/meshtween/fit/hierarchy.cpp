@@ -6,8 +6,8 @@
 
 #include "meshtween/core/parallel.h"
 #include "meshtween/geometry/measure.h"
+#include "meshtween/geometry/place_on_triangle.h"
 #include "meshtween/geometry/topology.h"
-#include "meshtween/geometry/triangle_distance.h"
 
 #include <Eigen/Geometry>
 
@@ -219,8 +219,8 @@ SurfacePoint local_place(const Level& level, const Topology& topology, int start
     const auto look = [&](int vertex) {
         for (const int t : topology.vertex_triangles[vertex]) {
             const auto corners = level.triangles.row(t);
-            const auto p = closest_on_triangle(query, level.positions.row(corners[0]), level.positions.row(corners[1]),
-                                               level.positions.row(corners[2]));
+            const auto p = place_on_triangle(query, level.positions.row(corners[0]), level.positions.row(corners[1]),
+                                             level.positions.row(corners[2]));
             if (p.squared_distance < least) least = p.squared_distance, best = {t, {1 - p.v - p.w, p.v, p.w}};
         }
     };

@@ -9,7 +9,7 @@
 
 #include "meshtween/core/parallel.h"
 #include "meshtween/geometry/measure.h"
-#include "meshtween/geometry/triangle_distance.h"
+#include "meshtween/geometry/place_on_triangle.h"
 
 #include <Eigen/Geometry>
 
@@ -59,8 +59,8 @@ SurfacePoint coarser_place(const ShellLevels& all, std::size_t finer, const Surf
     for (int k = 0; k < 3; ++k)
         for (const int t : topology.vertex_triangles[coarse.triangles(start.triangle, k)]) {
             const auto f = coarse.triangles.row(t);
-            const auto p = closest_on_triangle(query, coarse.positions.row(f[0]), coarse.positions.row(f[1]),
-                                               coarse.positions.row(f[2]));
+            const auto p = place_on_triangle(query, coarse.positions.row(f[0]), coarse.positions.row(f[1]),
+                                             coarse.positions.row(f[2]));
             if (p.squared_distance < least) least = p.squared_distance, best = {t, {1 - p.v - p.w, p.v, p.w}};
         }
     return best;

@@ -7,14 +7,14 @@
 
 namespace meshtween {
 
-struct OnTriangle {
+struct PlaceOnTriangle {
     double v = 0, w = 0; // barycentric coordinates of the second and third corner
     double squared_distance = 0;
 };
 
 // The least of the distances to the three edges and, where the query's foot lies inside, to the foot. Each candidate is
 // a point of the triangle whatever the rounding, so that slivers and triangles without area need no case of their own.
-inline OnTriangle closest_on_triangle(const Point& query, const Point& a, const Point& b, const Point& c) {
+inline PlaceOnTriangle place_on_triangle(const Point& query, const Point& a, const Point& b, const Point& c) {
     const auto dot = [](const Point& x, const Point& y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; };
     const auto cross = [](const Point& x, const Point& y) {
         return Point(x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]);
@@ -25,7 +25,7 @@ inline OnTriangle closest_on_triangle(const Point& query, const Point& a, const 
         return length > 0 ? t / length : 0.0;
     };
     const auto squared = [&](const Point& x) { return dot(x, x); };
-    OnTriangle best;
+    PlaceOnTriangle best;
     const auto offer = [&](double v, double w, double d) {
         if (d < best.squared_distance) best = {v, w, d};
     };
