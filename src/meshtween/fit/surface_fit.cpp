@@ -11,6 +11,7 @@
 #include "meshtween/fit/settle.h"
 #include "meshtween/geometry/measure.h"
 
+#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -52,6 +53,14 @@ struct Frame { // the target's: everything is computed in coordinates where its 
     Points out(const Points& x) const { return ((x * diagonal).rowwise() + origin).eval(); }
 };
 
+bool on_one_line(const Points& points) {
+    const Points centred = points.rowwise() - points.colwise().mean();
+    const Eigen::Vector3d spread =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(centred.transpose() * centred, Eigen::EigenvaluesOnly)
+            .eigenvalues();
+    return spread[1] <= 1e-12 * spread[2];
+}
+
 Similarity start(const Mesh& source, const Points& target, const Triangles& target_triangles,
                  std::span<const Marker> markers, const Points& goals, std::vector<std::string>& notes) {
     if (markers.empty()) {
@@ -62,7 +71,14 @@ Similarity start(const Mesh& source, const Points& target, const Triangles& targ
     Points from(goals.rows(), 3);
     for (std::size_t k = 0; k < markers.size(); ++k)
         from.row(static_cast<Eigen::Index>(k)) = position(source.positions, source.triangles, markers[k].source);
-    if (markers.size() >= 3) return align(from, goals);
+    if (markers.size() >= 3) {
+        if (on_one_line(from) || on_one_line(goals))
+            throw Error(ErrorKind::computation,
+                        fmt::format("the {} markers lie on one line, which leaves the turn around it open: place one "
+                                    "beside the line",
+                                    markers.size()));
+        return align(from, goals);
+    }
     notes.push_back(fmt::format("{} marker{}: turn and size are taken from the shapes' extents", markers.size(),
                                 markers.size() == 1 ? "" : "s"));
     Similarity s = align_axes(source.positions, source.triangles, target, target_triangles);
