@@ -37,8 +37,8 @@ Two two_product(double a, double b) {
 
 // Components from the smallest to the largest, none of them nil; no components for nil.
 template <int most>
-struct Expansion {
-    std::array<double, most> component;
+struct Expansion {                      // NOLINT(cppcoreguidelines-pro-type-member-init): mostly a few of many are used
+    std::array<double, most> component; // the first `count` of them hold anything
     int count = 0;
 
     void push(double x) {
@@ -58,7 +58,7 @@ Expansion<2> difference(double a, double b) {
 
 template <int n>
 Expansion<n> negative(Expansion<n> e) {
-    for (double& x : e.component) x = -x;
+    for (int i = 0; i < e.count; ++i) e.component[static_cast<std::size_t>(i)] *= -1;
     return e;
 }
 

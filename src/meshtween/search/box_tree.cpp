@@ -134,7 +134,7 @@ std::vector<FloatBox> triangle_boxes(const Points& positions, const Triangles& t
             const Point p = frame.into(positions.row(triangles(t, corner)));
             for (int k = 0; k < 3; ++k) {
                 const auto axis = static_cast<std::size_t>(k);
-                const float rounded = static_cast<float>(p[k]);
+                const auto rounded = static_cast<float>(p[k]);
                 box.low[axis] = std::min(box.low[axis], std::nextafter(rounded, -FloatBox::nowhere));
                 box.high[axis] = std::max(box.high[axis], std::nextafter(rounded, FloatBox::nowhere));
             }

@@ -21,8 +21,8 @@ float gap(const FloatBox& a, const FloatBox& b) {
 }
 
 struct Leaf {
-    float gap;
-    int child;
+    float gap = 0;
+    int child = 0;
     FloatBox box;
 };
 
@@ -81,7 +81,8 @@ void add_neighbourhoods(WideTree& tree) {
             const FloatBox box = box_of(node, i);
             if (box.low[0] > box.high[0] || node.child[i] >= 0) continue;
             middle.extend(box);
-            for (const int t : tree.blocks[static_cast<std::size_t>(~node.child[i])].triangle)
+            const int block = ~node.child[i];
+            for (const int t : tree.blocks[static_cast<std::size_t>(block)].triangle)
                 tree.home[static_cast<std::size_t>(t)] = static_cast<int>(middles.size());
         }
         if (middle.low[0] <= middle.high[0]) middles.push_back(middle);

@@ -99,7 +99,7 @@ Arranged arrange(const Surface& surface, int s, int t) {
         in_t[static_cast<std::size_t>(k)] = surface.triangles(t, k);
     }
     for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = static_cast<std::size_t>(result.shared); j < 3; ++j)
+        for (auto j = static_cast<std::size_t>(result.shared); j < 3; ++j)
             if (in_s[i] == in_t[j]) {
                 const auto k = static_cast<std::size_t>(result.shared++);
                 std::swap(in_s[i], in_s[k]);
@@ -142,7 +142,7 @@ void meet(const Surface& surface, const Leaves& all, int leaf, Pairs& found) {
     const auto& own = tree.nodes[static_cast<std::size_t>(leaf)];
     const auto item = [&](int i) { return tree.order[static_cast<std::size_t>(i)]; };
     const auto box = [&](int i) -> const search::FloatBox& { return all.boxes[static_cast<std::size_t>(i)]; };
-    std::array<int, search::BoxTree::deepest + 1> stack;
+    std::array<int, search::BoxTree::deepest + 1> stack{};
     std::size_t top = 0;
     stack[top++] = 0;
     while (top > 0) {

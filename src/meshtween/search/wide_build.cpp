@@ -50,7 +50,7 @@ struct Collapse {
             const Work work = todo.back();
             todo.pop_back();
             const std::vector<int> kids = children(work.binary);
-            WideNode node;
+            WideNode node{};
             for (int i = 0; i < wide; ++i) {
                 const bool empty = i >= static_cast<int>(kids.size());
                 const FloatBox box = empty ? FloatBox{} : at(kids[static_cast<std::size_t>(i)]).box;
@@ -92,7 +92,8 @@ double put(const std::array<Point, 3>& corners, int lane, TriangleBlock& block) 
     std::array<double, 3> opposite{};
     for (std::size_t k = 0; k < 3; ++k) opposite[k] = (corners[(k + 1) % 3] - corners[(k + 2) % 3]).norm();
     const auto top = static_cast<std::size_t>(std::max_element(opposite.begin(), opposite.end()) - opposite.begin());
-    const Point a = corners[top], ab = corners[(top + 1) % 3] - a, ac = corners[(top + 2) % 3] - a;
+    const Point& a = corners[top];
+    const Point ab = corners[(top + 1) % 3] - a, ac = corners[(top + 2) % 3] - a;
     for (int k = 0; k < 3; ++k) {
         block.a[k][lane] = static_cast<float>(a[k]);
         block.ab[k][lane] = static_cast<float>(ab[k]);
@@ -104,7 +105,7 @@ double put(const std::array<Point, 3>& corners, int lane, TriangleBlock& block) 
 
 TriangleBlock block_of(const Points& positions, const Triangles& triangles, std::span<const int> items,
                        double smallest) {
-    TriangleBlock block;
+    TriangleBlock block{};
     Point low = positions.row(triangles(items[0], 0)), high = low;
     for (const int t : items)
         for (int k = 0; k < 3; ++k) {

@@ -42,7 +42,7 @@ inline unsigned at_most(Floats a, Floats b) {
 #endif
 
 // What waits to be searched, the nearest last: a distance's bits above a child's, which sort as the distances do.
-struct Stack {
+struct Stack { // NOLINT(cppcoreguidelines-pro-type-member-init): filling it would cost more than a search
     unsigned long long waiting[640]; // seven of each level of the binary tree under this one, and some
     int count = 0;
 
@@ -75,6 +75,7 @@ struct Search {
     Candidate candidates[most];
     int count = 0;
 
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): nor the candidates
     Search(const WideView& the_tree, WideQuery& the_query) : tree(the_tree), query(the_query) {
         double largest = 0;
         for (int k = 0; k < 3; ++k) {
@@ -95,10 +96,10 @@ struct Search {
 
     // The squared distances of `lanes` boxes.
     Floats to_boxes(const float* low, const float* high, int children) const {
-        Floats squared = Floats{};
+        Floats squared{};
         for (int k = 0; k < 3; ++k) {
             const Floats below = load(low + k * children) - point[k], above = point[k] - load(high + k * children);
-            const Floats outside = larger<Floats>(larger<Floats>(below, above), Floats{});
+            const auto outside = larger<Floats>(larger<Floats>(below, above), Floats{});
             squared += outside * outside;
         }
         return squared;
