@@ -12,18 +12,6 @@ using namespace meshtween;
 
 namespace {
 
-std::string_view word(Severity severity) {
-    switch (severity) {
-    case Severity::note:
-        return "note";
-    case Severity::warning:
-        return "warning";
-    case Severity::error:
-        return "error";
-    }
-    return "";
-}
-
 // Prints what is wrong with one file; true where nothing stops work with it.
 bool check_file(const std::string& path) {
     try {
@@ -31,7 +19,7 @@ bool check_file(const std::string& path) {
         fmt::print("{}: {} vertices, {} triangles\n", path, mesh.positions.rows(), mesh.triangles.rows());
         bool usable = true;
         for (const Finding& finding : check(mesh)) {
-            fmt::print("{}: {}: {}\n", path, word(finding.severity), finding.what);
+            fmt::print("{}: {}: {}\n", path, name_of(finding.severity), finding.what);
             usable = usable && finding.severity != Severity::error;
         }
         return usable;

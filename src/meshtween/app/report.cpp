@@ -23,6 +23,8 @@ std::string_view name_of(FitEnd end) {
     return "";
 }
 
+} // namespace
+
 std::string_view name_of(Severity severity) {
     switch (severity) {
     case Severity::note:
@@ -34,8 +36,6 @@ std::string_view name_of(Severity severity) {
     }
     return "";
 }
-
-} // namespace
 
 Json to_json(const Statistics& s) {
     return {{"mean", s.mean}, {"rms", s.rms}, {"median", s.median}, {"p95", s.p95}, {"p99", s.p99}, {"max", s.max}};

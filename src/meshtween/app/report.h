@@ -8,9 +8,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include <string_view>
+
 namespace meshtween {
 
 using Json = nlohmann::ordered_json;
+
+std::string_view name_of(Severity severity); // "note", "warning" or "error"
 
 Json to_json(const Statistics& s);
 Json to_json(const Quality& quality);
