@@ -5,6 +5,7 @@
 #include "meshtween/core/progress.h"
 #include "meshtween/fit/rbf.h"
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,6 +24,7 @@ struct FitOptions {
     int max_rounds = 40;       // of smoothing and projection
     double threshold = 1e-4;   // stop where sqrt(E / n), E of Eq. 7 before a round's projection, falls under this
     double least_cosine = 0.3; // between a vertex normal and the target's normal where it may be projected
+    std::function<void(const Points&)> watch; // called now and then, from fit's thread, with the mesh as it stands
 };
 
 enum class FitEnd { converged, out_of_rounds, cancelled };

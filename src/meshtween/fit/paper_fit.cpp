@@ -194,6 +194,7 @@ FitResult paper_fit(const Mesh& source, const Mesh& target, std::span<const Mark
             result.end = FitEnd::cancelled;
             break;
         }
+        if (options.watch) options.watch(loop.positions);
         run_round(loop, result, result.rounds++);
         if (result.history.back() <= options.threshold) result.end = FitEnd::converged;
     }

@@ -1,0 +1,79 @@
+#include "jobs.h"
+
+#include <chrono>
+#include <new>
+
+namespace meshtween::studio {
+
+Jobs::~Jobs() {
+    cancel();
+    wait();
+}
+
+bool Jobs::start(const std::string& kind, Work work) {
+    const std::lock_guard starting(starting_);
+    if (running_.exchange(true)) return false;
+    if (thread_.joinable()) thread_.join(); // it has ended: running_ was false
+    cancel_ = false;
+    tell({{"kind", kind}, {"state", "running"}, {"fraction", 0}, {"stage", "starting"}});
+    thread_ = std::thread([this, kind, work = std::move(work)] { run(kind, work); });
+    return true;
+}
+
+void Jobs::run(const std::string& kind, const Work& work) {
+    using Clock = std::chrono::steady_clock;
+    auto last = Clock::now();
+    std::string last_stage;
+    const Progress progress = [&](double fraction, std::string_view stage) {
+        const auto now = Clock::now();
+        if (now - last > std::chrono::milliseconds(50) ||
+            (stage != last_stage && now - last > std::chrono::milliseconds(5))) {
+            tell({{"kind", kind}, {"state", "running"}, {"fraction", fraction}, {"stage", stage}});
+            last = now;
+            last_stage = stage;
+        }
+        return !cancel_;
+    };
+    Json end{{"kind", kind}, {"state", "done"}};
+    try {
+        Json result = work(progress);
+        if (cancel_)
+            end["state"] = "cancelled";
+        else
+            end["result"] = std::move(result);
+    } catch (const std::bad_alloc&) {
+        end["state"] = "failed";
+        end["error"] = "out of memory; use smaller meshes or a larger machine";
+    } catch (const std::exception& error) {
+        end["state"] = "failed";
+        end["error"] = error.what();
+    }
+    running_ = false;
+    tell(std::move(end));
+}
+
+void Jobs::tell(Json status) {
+    events_.publish("job", status);
+    const std::lock_guard lock(mutex_);
+    status_ = std::move(status);
+}
+
+void Jobs::cancel() {
+    cancel_ = true;
+}
+
+void Jobs::wait() {
+    const std::lock_guard starting(starting_);
+    if (thread_.joinable()) thread_.join();
+}
+
+bool Jobs::running() const {
+    return running_;
+}
+
+Json Jobs::status() const {
+    const std::lock_guard lock(mutex_);
+    return status_;
+}
+
+} // namespace meshtween::studio

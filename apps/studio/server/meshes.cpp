@@ -1,0 +1,210 @@
+// Stretch is Schreiner et al. 2004, Inter-Surface Mapping: sqrt((s1^2 + s2^2 + 1/s1^2 + 1/s2^2) / 4) of the singular
+// values s1, s2 of each face's map, averaged over the faces around a vertex.
+#include "meshes.h"
+
+#include "meshtween/app/report.h"
+#include "meshtween/core/error.h"
+#include "meshtween/core/parallel.h"
+#include "meshtween/fit/markers.h"
+#include "meshtween/geometry/measure.h"
+#include "meshtween/io/mesh_io.h"
+#include "meshtween/search/self_intersections.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace meshtween::studio {
+namespace {
+
+constexpr std::size_t longest_list = 200;
+constexpr double largest_stretch = 100; // of a face without area
+
+Json point(const Point& p) {
+    return {p[0], p[1], p[2]};
+}
+
+Point face_centre(const Mesh& mesh, Eigen::Index t) {
+    return (mesh.positions.row(mesh.triangles(t, 0)) + mesh.positions.row(mesh.triangles(t, 1)) +
+            mesh.positions.row(mesh.triangles(t, 2))) /
+           3;
+}
+
+// The stretch of one face's map; a reflection cannot be seen here and is listed as a flip.
+double stretch_of(const Mesh& from, const Points& to, Eigen::Index t) {
+    const auto corners = from.triangles.row(t);
+    const Point a = from.positions.row(corners[1]) - from.positions.row(corners[0]),
+                b = from.positions.row(corners[2]) - from.positions.row(corners[0]);
+    const double length = a.norm();
+    if (length <= 0) return largest_stretch;
+    const double x = a.dot(b) / length, y = std::sqrt(std::max(0.0, b.squaredNorm() - x * x));
+    if (y <= 0) return largest_stretch;
+    const Point p = to.row(corners[1]) - to.row(corners[0]), q = to.row(corners[2]) - to.row(corners[0]);
+    const Point u = p / length, v = (q - u * x) / y; // columns of the 3 x 2 Jacobian
+    const double sum = u.squaredNorm() + v.squaredNorm(), area2 = u.cross(v).squaredNorm(); // s1^2 + s2^2, (s1 s2)^2
+    if (area2 <= 0) return largest_stretch;
+    return std::min(largest_stretch, std::sqrt((sum + sum / area2) / 4));
+}
+
+Eigen::VectorXd vertex_stretch(const Mesh& from, const Points& to) {
+    Eigen::VectorXd of_face(from.triangles.rows());
+    parallel_for(of_face.size(), [&](Eigen::Index t) { of_face[t] = stretch_of(from, to, t); });
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(to.rows()), count = Eigen::VectorXd::Zero(to.rows());
+    for (Eigen::Index i = 0; i < from.triangles.size(); ++i) {
+        const int vertex = from.triangles.data()[i];
+        sum[vertex] += of_face[i / 3];
+        count[vertex] += 1;
+    }
+    return (sum.array() / count.array().max(1)).matrix() +
+           (count.array() == 0).cast<double>().matrix(); // vertices of no face: 1
+}
+
+Json flipped_faces(const Mesh& fitted, const OpenMesh& target) {
+    Json list = Json::array();
+    const Points normals = triangle_normals(fitted.positions, fitted.triangles);
+    std::vector<char> flipped(std::size_t(fitted.triangles.rows()), 0);
+    parallel_for(fitted.triangles.rows(), [&](Eigen::Index t) {
+        const ClosestPoint there = target.index.closest(face_centre(fitted, t));
+        flipped[std::size_t(t)] =
+            there.found() && normals.row(t).dot(target.index.normals().row(there.where.triangle)) < 0;
+    });
+    for (std::size_t t = 0; t < flipped.size() && list.size() < longest_list; ++t)
+        if (flipped[t]) list.push_back({{"face", t}, {"at", point(face_centre(fitted, Eigen::Index(t)))}});
+    return list;
+}
+
+Json cut_faces(const Mesh& fitted) {
+    Json list = Json::array();
+    for (const auto& [a, b] : self_intersections(fitted.positions, fitted.triangles)) {
+        if (list.size() == longest_list) break;
+        list.push_back({{"faces", {a, b}}, {"at", point((face_centre(fitted, a) + face_centre(fitted, b)) / 2)}});
+    }
+    return list;
+}
+
+// The vertices furthest from the target, none closer to a worse one than a twentieth of the diagonal.
+Json worst_places(const OpenMesh& source, const Fitted& fitted) {
+    constexpr std::size_t wanted = 8;
+    std::vector<Eigen::Index> order(std::size_t(fitted.distance.size()));
+    std::iota(order.begin(), order.end(), Eigen::Index(0));
+    const std::size_t looked_at = std::min<std::size_t>(order.size(), 20000);
+    std::partial_sort(order.begin(), order.begin() + std::ptrdiff_t(looked_at), order.end(),
+                      [&](auto a, auto b) { return fitted.distance[a] > fitted.distance[b]; });
+    Json list = Json::array();
+    std::vector<Point> chosen;
+    for (std::size_t i = 0; i < looked_at && list.size() < wanted; ++i) {
+        const Point at = source.mesh.positions.row(order[i]);
+        const bool apart = std::all_of(chosen.begin(), chosen.end(), [&](const Point& other) {
+            return (other - at).norm() > 0.05 * source.frame.scale;
+        });
+        if (!apart) continue;
+        chosen.push_back(at);
+        list.push_back({{"vertex", order[i]},
+                        {"source", point(at)},
+                        {"fitted", point(fitted.mesh.positions.row(order[i]))},
+                        {"distance", fitted.distance[order[i]]}});
+    }
+    return list;
+}
+
+// Percent of the target's diagonal from where the fit took a marker to where it should be.
+Json marker_errors(const OpenMesh& source, const OpenMesh& target, const Mesh& fitted,
+                   const std::vector<PlacedMarker>& markers) {
+    Json errors = Json::object();
+    for (const PlacedMarker& marker : markers) {
+        if (!marker.source || !marker.target) continue;
+        const ClosestPoint start = source.index.closest(*marker.source);
+        const Point end = position(fitted.positions, fitted.triangles, start.where);
+        errors[marker.id] = 100 * (end - *marker.target).norm() / target.frame.scale;
+    }
+    return errors;
+}
+
+} // namespace
+
+std::shared_ptr<const OpenMesh> open_mesh(const std::filesystem::path& path) {
+    Mesh mesh = read_mesh(path);
+    std::vector<Finding> findings = check(mesh);
+    for (const Finding& finding : findings)
+        if (finding.severity == Severity::error)
+            throw Error(ErrorKind::file, fmt::format("{}: {}", path.filename().string(), finding.what));
+    ClosestPointIndex index(mesh);
+    const Frame frame = frame_of(mesh.positions);
+    return std::make_shared<const OpenMesh>(OpenMesh{path, hash_of(path), std::filesystem::last_write_time(path),
+                                                     std::filesystem::file_size(path), std::move(mesh), frame,
+                                                     std::move(findings), std::move(index)});
+}
+
+Json to_json(const OpenMesh& open) {
+    Json findings = Json::array();
+    for (const Finding& finding : open.findings)
+        findings.push_back({{"warning", finding.severity != Severity::note}, {"what", finding.what}});
+    return {{"name", open.path.filename().string()},
+            {"path", open.path.string()},
+            {"hash", open.hash},
+            {"vertices", open.mesh.positions.rows()},
+            {"triangles", open.mesh.triangles.rows()},
+            {"frame", to_json(open.frame)},
+            {"colors", open.mesh.colors.rows() > 0},
+            {"uvs", open.mesh.texcoords.rows() > 0},
+            {"findings", findings}};
+}
+
+bool changed_on_disk(const OpenMesh& open) {
+    std::error_code gone;
+    const auto time = std::filesystem::last_write_time(open.path, gone);
+    if (gone) return true;
+    if (time == open.time && std::filesystem::file_size(open.path, gone) == open.size) return false;
+    return hash_of(open.path) != open.hash;
+}
+
+Fitted shown(const OpenMesh& source, const OpenMesh& target, Points positions) {
+    Fitted fitted;
+    fitted.mesh = source.mesh;
+    fitted.mesh.positions = std::move(positions);
+    const Points& points = fitted.mesh.positions;
+    fitted.distance.resize(points.rows());
+    parallel_for(points.rows(), [&](Eigen::Index i) {
+        fitted.distance[i] =
+            100 * std::sqrt(target.index.closest(Point(points.row(i))).squared_distance) / target.frame.scale;
+    });
+    fitted.stretch = vertex_stretch(source.mesh, points);
+    return fitted;
+}
+
+Fitted examined(const OpenMesh& source, const OpenMesh& target, const FitResult& result,
+                const std::vector<PlacedMarker>& markers, const Progress& progress) {
+    keep_going(progress, 0, "measuring");
+    Fitted fitted = shown(source, target, result.positions);
+    keep_going(progress, 0.1, "measuring");
+    fitted.summary = meshtween::to_json(result);
+    fitted.summary["mark"] = mark_of(markers);
+    fitted.summary["quality"] =
+        meshtween::to_json(measure(source.mesh, fitted.mesh, target.mesh, {}, complete_pairs(markers)));
+    keep_going(progress, 0.7, "looking for flips and cuts");
+    fitted.summary["marker_errors"] = marker_errors(source, target, fitted.mesh, markers);
+    fitted.summary["flips"] = flipped_faces(fitted.mesh, target);
+    fitted.summary["cuts"] = cut_faces(fitted.mesh);
+    fitted.summary["worst"] = worst_places(source, fitted);
+    keep_going(progress, 1, "measuring");
+    return fitted;
+}
+
+std::vector<MarkerPair> complete_pairs(const std::vector<PlacedMarker>& markers) {
+    std::vector<MarkerPair> pairs;
+    for (std::size_t i = 0; i < markers.size(); ++i)
+        if (markers[i].source && markers[i].target)
+            pairs.push_back({markers[i].name.empty() ? std::to_string(i + 1) : markers[i].name, *markers[i].source,
+                             *markers[i].target});
+    return pairs;
+}
+
+std::string mark_of(const std::vector<PlacedMarker>& markers) {
+    Json places = Json::array();
+    for (const MarkerPair& pair : complete_pairs(markers)) places.push_back({point(pair.source), point(pair.target)});
+    return hash_of_bytes(places.dump());
+}
+
+} // namespace meshtween::studio

@@ -1,0 +1,235 @@
+// The long work: fit, path, export; and the buffers that show its results.
+#include "options.h"
+#include "session.h"
+
+#include "meshtween/app/outputs.h"
+#include "meshtween/core/error.h"
+#include "meshtween/fit/markers.h"
+#include "meshtween/io/mesh_io.h"
+#include "meshtween/io/output.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+namespace meshtween::studio {
+namespace {
+
+constexpr CurveOptions played{1e-3, 17}; // of paths that are looked at; files get the library's own defaults
+
+void start(Jobs& jobs, const std::string& kind, Jobs::Work work) {
+    if (!jobs.start(kind, std::move(work)))
+        throw Error(ErrorKind::argument, "another job is running; wait for it or cancel it");
+}
+
+std::string buffer(const Mesh& mesh, const Frame& frame, const std::string& what) {
+    if (what == "positions") return position_bytes(mesh.positions, frame);
+    if (what == "normals") return normal_bytes(mesh.positions, mesh.triangles);
+    if (what == "triangles") return index_bytes(mesh.triangles);
+    if (what == "colors") return color_bytes(mesh.colors);
+    if (what == "uvs") return corner_uv_bytes(mesh);
+    throw Error(ErrorKind::argument, "there is no such buffer");
+}
+
+Points side_of_pairs(const std::vector<MarkerPair>& pairs, Side side) {
+    Points points(std::ssize(pairs), 3);
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+        points.row(Eigen::Index(i)) = side == Side::source ? pairs[i].source : pairs[i].target;
+    return points;
+}
+
+} // namespace
+
+void Session::start_fit(const Json& values) {
+    const FitOptions options = fit_options(values);
+    const Open open = both();
+    std::vector<PlacedMarker> markers;
+    {
+        const std::lock_guard lock(mutex_);
+        markers = project_.markers;
+    }
+    const std::size_t complete = complete_pairs(markers).size();
+    if (complete < 3)
+        throw Error(ErrorKind::argument,
+                    fmt::format("{} marker{} on both models; a fit needs 3 at least, 30 to 50 serve well", complete,
+                                complete == 1 ? " is" : "s are"));
+    start(jobs_, "fit", [this, open, markers, options](const Progress& progress) {
+        return run_fit(open, markers, options, progress);
+    });
+}
+
+// Lets the page see the mesh move: a copy a few times a second, fetched by the page when it is told of it.
+std::function<void(const Points&)> Session::show_live() {
+    return [this, last = std::chrono::steady_clock::time_point()](const Points& positions) mutable {
+        const auto now = std::chrono::steady_clock::now();
+        if (now - last < std::chrono::milliseconds(200)) return;
+        last = now;
+        {
+            const std::lock_guard lock(mutex_);
+            live_ = std::make_shared<const Points>(positions);
+        }
+        events_.publish("live", nullptr);
+    };
+}
+
+Json Session::run_fit(const Open& open, const std::vector<PlacedMarker>& markers, FitOptions options,
+                      const Progress& progress) {
+    options.watch = show_live();
+    {
+        const std::lock_guard lock(mutex_);
+        live_ = nullptr;
+        live_frame_ = frame_of(open.source->mesh.positions, open.target->mesh.positions);
+    }
+    const FitResult result =
+        fit(open.source->mesh, open.target->mesh, place_markers(complete_pairs(markers), open.source->mesh), options,
+            part_of(progress, 0, 0.8));
+    if (result.end == FitEnd::cancelled || !keep_going(progress, 0.8, "measuring")) return nullptr;
+    auto fitted =
+        std::make_shared<Fitted>(examined(*open.source, *open.target, result, markers, part_of(progress, 0.8, 0.95)));
+    if (!keep_going(progress, 0.95, "saving")) return nullptr;
+    write_mesh(fitted->mesh, fitted_file());
+    Json summary = fitted->summary;
+    {
+        const std::lock_guard lock(mutex_);
+        fitted_ = std::move(fitted);
+        paths_.clear();
+        project_.fit = summary;
+        save_locked();
+    }
+    return summary;
+}
+
+void Session::start_path(const Json& values) {
+    const MorphOptions options = morph_options(values);
+    const Open open = both();
+    const auto fitted = need_fit();
+    const std::string key = (values.is_object() ? values : Json::object()).dump();
+    start(jobs_, "morph", [this, open, fitted, options, key](const Progress& progress) -> Json {
+        const Morph morph =
+            meshtween::morph(open.source->mesh, fitted->mesh.positions, options, part_of(progress, 0, 0.2));
+        if (!keep_going(progress, 0.2, "finding the path")) return nullptr;
+        auto path = std::make_shared<PlayedPath>();
+        path->frame = frame_of(open.source->mesh.positions, open.target->mesh.positions);
+        path->curve = curve(morph, played, part_of(progress, 0.2, 1));
+        if (path->curve.cancelled || !keep_going(progress, 1, "finding the path")) return nullptr;
+        Json told{{"key", key},
+                  {"parameters", path->curve.parameters},
+                  {"deviation", path->curve.deviation},
+                  {"frame", to_json(path->frame)}};
+        const std::lock_guard lock(mutex_);
+        if (fitted_ != fitted) throw Error(ErrorKind::computation, "the fit changed meanwhile; ask again");
+        paths_[key] = std::move(path);
+        return told;
+    });
+}
+
+void Session::start_export(const Json& request) {
+    if (!request.is_object() || !request.contains("names") || !request["names"].is_array() || request["names"].empty())
+        throw Error(ErrorKind::argument, "an export needs names of files");
+    const MorphOptions options = morph_options(request.value("options", Json::object()));
+    const Json frames_value = request.value("frames", Json(11));
+    const int frames = frames_value.is_number_integer() ? frames_value.get<int>() : 0;
+    if (frames < 2 || frames > 100000) throw Error(ErrorKind::argument, "frames must lie between 2 and 100000");
+    const Open open = both();
+    const auto fitted = need_fit();
+    std::vector<MarkerPair> pairs;
+    std::vector<Output> outputs;
+    {
+        const std::lock_guard lock(mutex_);
+        pairs = complete_pairs(project_.markers);
+        for (const Json& name : request["names"]) {
+            if (!name.is_string()) throw Error(ErrorKind::argument, "names must be text");
+            outputs.push_back(output(access_.place_for("exports", name.get<std::string>()).string()));
+        }
+    }
+    start(jobs_, "export", [open, fitted, options, frames, pairs, outputs](const Progress& progress) -> Json {
+        std::vector<Output> stills, plays;
+        for (const Output& out : outputs) (out.kind == OutputKind::mesh ? stills : plays).push_back(out);
+        Json files = Json::array();
+        const auto tell = [&](const Written& written) {
+            for (const auto& file : written.files) files.push_back(file.filename().string());
+        };
+        if (!stills.empty()) tell(write_still(fitted->mesh, "source's mesh on the target", {}, stills));
+        if (!plays.empty()) {
+            const Mesh& source = open.source->mesh;
+            const Morph path = morph(source, fitted->mesh.positions, options, part_of(progress, 0, 0.3));
+            if (!keep_going(progress, 0.3, "writing")) return nullptr;
+            Mesh first = source;
+            first.positions = path.at(0);
+            const std::vector<Tile> tiles{{"source", source, side_of_pairs(pairs, Side::source)},
+                                          {"target", open.target->mesh, side_of_pairs(pairs, Side::target)},
+                                          {"source's mesh on the target", fitted->mesh, {}}};
+            tell(write_outputs({first,
+                                path,
+                                {},
+                                frames,
+                                open.source->path.stem().string() + " to " + open.target->path.stem().string(),
+                                tiles},
+                               plays, part_of(progress, 0.3, 1)));
+        }
+        return {{"files", files}, {"folder", outputs.front().path.parent_path().string()}};
+    });
+}
+
+void Session::cancel() {
+    jobs_.cancel();
+}
+
+void Session::wait() {
+    jobs_.wait();
+}
+
+std::filesystem::path Session::exported(const std::string& name) const {
+    const std::lock_guard lock(mutex_);
+    const auto file = access_.checked(access_.place_for("exports", name));
+    if (!std::filesystem::is_regular_file(file)) throw Error(ErrorKind::file, "there is no export " + plain_name(name));
+    return file;
+}
+
+std::string Session::mesh_buffer(Side side, const std::string& what) const {
+    std::shared_ptr<const OpenMesh> open;
+    {
+        const std::lock_guard lock(mutex_);
+        open = side == Side::source ? open_.source : open_.target;
+    }
+    if (!open) throw Error(ErrorKind::argument, fmt::format("no {} is open", name_of(side)));
+    return buffer(open->mesh, open->frame, what);
+}
+
+std::string Session::fitted_buffer(const std::string& what) const {
+    const auto fitted = need_fit();
+    if (what == "distance") return value_bytes(fitted->distance);
+    if (what == "stretch") return value_bytes(fitted->stretch);
+    const Open open = both();
+    return buffer(fitted->mesh, frame_of(open.source->mesh.positions, open.target->mesh.positions), what);
+}
+
+std::string Session::live_positions() const {
+    std::shared_ptr<const Points> live;
+    Frame frame;
+    {
+        const std::lock_guard lock(mutex_);
+        live = live_;
+        frame = live_frame_;
+    }
+    return live ? position_bytes(*live, frame) : std::string();
+}
+
+std::string Session::path_buffer(const std::string& key, std::size_t node, const std::string& what) const {
+    std::shared_ptr<const PlayedPath> path;
+    std::shared_ptr<const OpenMesh> source;
+    {
+        const std::lock_guard lock(mutex_);
+        const auto found = paths_.find(key);
+        if (found != paths_.end()) path = found->second;
+        source = open_.source;
+    }
+    if (!path || !source || node >= path->curve.nodes.size())
+        throw Error(ErrorKind::argument, "there is no such path; ask for it again");
+    const Points& positions = path->curve.nodes[node];
+    if (what == "positions") return position_bytes(positions, path->frame);
+    if (what == "normals") return normal_bytes(positions, source->mesh.triangles);
+    throw Error(ErrorKind::argument, "there is no such buffer");
+}
+
+} // namespace meshtween::studio

@@ -1,0 +1,116 @@
+// What the page and the program tell each other.
+export type Vec3 = [number, number, number]
+export type Side = 'source' | 'target'
+export const sides: Side[] = ['source', 'target']
+export const other = (side: Side): Side => (side === 'source' ? 'target' : 'source')
+
+export interface Marker {
+  id: string
+  name: string
+  source: Vec3 | null // in the mesh's own coordinates
+  target: Vec3 | null
+  locked: boolean
+  twin?: string
+}
+
+export interface Symmetry {
+  on: boolean
+  axis: number // 0, 1, 2: the plane's normal is x, y or z
+  source: number // where the plane cuts the axis, from the box's centre, in parts of the diagonal
+  target: number
+}
+
+export type Options = Record<string, number | string>
+
+// All that a person makes, and all that undo brings back.
+export interface Document {
+  markers: Marker[]
+  symmetry: Symmetry
+  options: { fit: Options; morph: Options }
+}
+
+export interface Frame {
+  centre: Vec3
+  scale: number
+}
+
+export interface MeshInfo {
+  name: string
+  path: string
+  hash: string
+  vertices: number
+  triangles: number
+  frame: Frame
+  colors: boolean
+  uvs: boolean
+  findings: { warning: boolean; what: string }[]
+}
+
+export interface Stats {
+  mean: number
+  rms: number
+  median: number
+  p95: number
+  p99: number
+  max: number
+}
+
+export interface FitSummary {
+  quality: {
+    fitted_to_target: Stats
+    target_to_fitted: Stats
+    flipped_faces: number
+    self_intersections: number
+    self_intersections_source: number
+    self_intersections_target: number
+    marker_error?: Stats
+    [name: string]: unknown
+  }
+  marker_errors: Record<string, number>
+  flips: { face: number; at: Vec3 }[]
+  cuts: { faces: [number, number]; at: Vec3 }[]
+  worst: { vertex: number; source: Vec3; fitted: Vec3; distance: number }[]
+  notes?: string[]
+}
+
+export interface OptionRow {
+  name: string
+  label: string
+  help: string
+  type: 'number' | 'choice'
+  default: number | string
+  min?: number
+  max?: number
+  choices?: string[]
+}
+
+export interface PathInfo {
+  key: string
+  parameters: number[]
+  deviation: number
+  frame: Frame
+}
+
+export interface Job {
+  kind?: 'fit' | 'morph' | 'export'
+  state?: 'running' | 'done' | 'cancelled' | 'failed'
+  fraction?: number
+  stage?: string
+  error?: string
+  result?: unknown
+}
+
+export interface State {
+  project: { file: string; folder: string }
+  document: { markers: Marker[]; symmetry: Partial<Symmetry>; options: { fit?: Options; morph?: Options } }
+  meshes: Record<Side, MeshInfo | null>
+  fit: FitSummary | null
+  fit_is_of_these_markers: boolean
+  result_frame?: Frame
+  paths: PathInfo[]
+  job: Job
+  schema: { fit: OptionRow[]; morph: OptionRow[] }
+  samples: { name: string; description: string }[]
+  mesh_formats: string[]
+  notes: string[]
+}

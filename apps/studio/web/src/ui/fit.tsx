@@ -1,0 +1,117 @@
+// The fit: options, progress, and what there is to see of its result.
+import { api } from '../api'
+import { app } from '../app'
+import { heatGradient } from '../scene/heat'
+import { chooseHeat, flyInResult, startFit } from '../work'
+import { isComplete } from '../edits'
+import type { FitSummary, Vec3 } from '../types'
+import { Button, Choice, figure, JobBar, OptionForm, Section } from './parts'
+
+const Figure = ({ name, value, title, bad }: { name: string; value: string; title: string; bad?: boolean }) => (
+  <div class={`figure${bad ? ' warn' : ''}`} title={title}>
+    <b>{value}</b>
+    <span>{name}</span>
+  </div>
+)
+
+function Places({ title, list }: { title: string; list: { text: string; at: Vec3 }[] }) {
+  if (list.length === 0) return null
+  return (
+    <details>
+      <summary>
+        {title} <small>click one to see it</small>
+      </summary>
+      <div class="places">
+        {list.map(({ text, at }) => (
+          <button type="button" class="small" key={text} onClick={() => flyInResult(at)}>
+            {text}
+          </button>
+        ))}
+      </div>
+    </details>
+  )
+}
+
+export function HeatLegend() {
+  if (app.heat === 'none') return null
+  const stretch = app.heat === 'stretch'
+  return (
+    <div class="legend">
+      <span>{stretch ? '1' : '0'}</span>
+      <i style={{ background: heatGradient }} />
+      <span>
+        {figure(app.heatMost)}
+        {stretch ? '' : ' %'}
+      </span>
+      <em>{stretch ? 'stretch' : 'distance to the target'}</em>
+    </div>
+  )
+}
+
+function Outcome({ fit }: { fit: FitSummary }) {
+  const { quality } = fit
+  return (
+    <Section title="Outcome" aside={app.stale ? 'markers have changed since' : undefined}>
+      <div class="figures">
+        <Figure name="to the target" value={`${figure(quality.fitted_to_target.mean)} %`} title="Mean distance from the fitted surface to the target, percent of its size" />
+        <Figure name="and back" value={`${figure(quality.target_to_fitted.mean)} %`} title="Mean distance from the target to the fitted surface: what is not covered" />
+        <Figure name="flipped" value={String(quality.flipped_faces)} title="Faces that look the wrong way" bad={quality.flipped_faces > 0} />
+        <Figure name="cuts" value={String(quality.self_intersections)} title={`Pairs of faces that cut each other; the source has ${quality.self_intersections_source}, the target ${quality.self_intersections_target}`} bad={quality.self_intersections > quality.self_intersections_source + quality.self_intersections_target} />
+      </div>
+      <Choice
+        label="Heat map"
+        value={app.heat}
+        of={[
+          ['distance', 'Distance'],
+          ['stretch', 'Stretch'],
+          ['none', 'Plain'],
+        ]}
+        onChange={chooseHeat}
+      />
+      <Places title={`${fit.flips.length} flipped faces`} list={fit.flips.length ? fit.flips.map((flip) => ({ text: `face ${flip.face}`, at: flip.at })) : []} />
+      <Places title={`${fit.cuts.length} cuts`} list={fit.cuts.map((cut) => ({ text: `${cut.faces[0]} × ${cut.faces[1]}`, at: cut.at }))} />
+      <Places title="Worst places" list={fit.worst.map((place) => ({ text: `vertex ${place.vertex}: ${figure(place.distance)} %`, at: place.fitted }))} />
+      {fit.notes?.map((note) => (
+        <small class="warn" key={note}>
+          {note}
+        </small>
+      ))}
+    </Section>
+  )
+}
+
+export function FitPanel() {
+  const fit = app.state?.fit
+  const complete = app.store.document.markers.filter(isComplete).length
+  const running = app.running && app.job.kind === 'fit'
+  return (
+    <>
+      <Section title="Fit" aside={`${complete} markers`}>
+        <p class="hint">Brings the source's mesh onto the target's surface, led by the markers.</p>
+        {running ? (
+          <>
+            <JobBar kind="fit" />
+            <Button onClick={() => void app.attempt(() => api.cancel())} keys="Escape" title="Stop and keep what was there before">
+              Cancel
+            </Button>
+          </>
+        ) : (
+          <Button primary disabled={complete < 3 || app.running || app.readOnly} onClick={() => void startFit()}>
+            {fit ? 'Fit again' : 'Fit'}
+          </Button>
+        )}
+        {complete < 3 && <small class="warn">Place {3 - complete} more markers on both models first.</small>}
+        <details>
+          <summary>Options</summary>
+          <OptionForm of="fit" rows={app.state?.schema.fit ?? []} />
+        </details>
+      </Section>
+      {fit && !running && <Outcome fit={fit} />}
+      {fit && !running && (
+        <Button primary={!app.stale} onClick={() => app.set({ step: 'morph' })}>
+          Go on to the morph
+        </Button>
+      )}
+    </>
+  )
+}

@@ -1,0 +1,145 @@
+// Small parts that all panels use.
+import type { ComponentChildren } from 'preact'
+import { useEffect, useReducer } from 'preact/hooks'
+import { app } from '../app'
+import { setOption } from '../edits'
+import type { OptionRow } from '../types'
+
+// Draws the component anew whenever the state or the document changes.
+export function useApp() {
+  const [, again] = useReducer((count: number) => count + 1, 0)
+  useEffect(() => {
+    const stop = app.subscribe(() => again(undefined as never))
+    return () => void stop()
+  }, [])
+  return app
+}
+
+interface ButtonProps {
+  onClick: () => void
+  children: ComponentChildren
+  title?: string
+  keys?: string
+  primary?: boolean
+  pressed?: boolean
+  disabled?: boolean
+  small?: boolean
+  label?: string
+}
+
+export function Button({ onClick, children, title, keys, primary, pressed, disabled, small, label }: ButtonProps) {
+  const kind = [primary && 'primary', small && 'small', pressed && 'pressed'].filter(Boolean).join(' ')
+  return (
+    <button
+      type="button"
+      class={kind || undefined}
+      title={keys ? `${title ?? ''} (${keys})` : title}
+      aria-label={label}
+      aria-pressed={pressed === undefined ? undefined : pressed}
+      disabled={disabled}
+      onClick={onClick}
+    >
+      {children}
+    </button>
+  )
+}
+
+export const Section = ({ title, children, aside }: { title: string; children: ComponentChildren; aside?: ComponentChildren }) => (
+  <section>
+    <h2>
+      {title}
+      {aside && <span class="aside">{aside}</span>}
+    </h2>
+    {children}
+  </section>
+)
+
+// A row of choices of which one holds.
+export function Choice<T extends string>(props: { label: string; value: T; of: [T, string][]; onChange: (value: T) => void }) {
+  return (
+    <div class="choice" role="group" aria-label={props.label}>
+      {props.of.map(([value, text]) => (
+        <button type="button" aria-pressed={value === props.value} onClick={() => props.onChange(value)} key={value}>
+          {text}
+        </button>
+      ))}
+    </div>
+  )
+}
+
+// Options as the program describes them, each with its one line of explanation.
+export function OptionForm({ of, rows }: { of: 'fit' | 'morph'; rows: OptionRow[] }) {
+  const { store } = app
+  return (
+    <div class="options">
+      {rows.map((row) => {
+        const value = store.document.options[of][row.name] ?? row.default
+        const set = (next: number | string) => store.edit(`set ${row.label}`, (d) => setOption(d, of, row.name, next))
+        return (
+          <label key={row.name} class="option">
+            <span class="name">{row.label}</span>
+            {row.type === 'choice' ? (
+              <select value={value} disabled={app.readOnly} onChange={(e) => set(e.currentTarget.value)}>
+                {row.choices!.map((choice) => (
+                  <option value={choice} key={choice}>
+                    {choice}
+                  </option>
+                ))}
+              </select>
+            ) : (
+              <input
+                type="number"
+                step="any"
+                min={row.min}
+                max={row.max}
+                value={value}
+                disabled={app.readOnly}
+                onChange={(e) => {
+                  const next = e.currentTarget.valueAsNumber
+                  if (next >= row.min! && next <= row.max!) set(next)
+                  else {
+                    app.toast(`${row.label} must lie between ${row.min} and ${row.max}.`, true)
+                    e.currentTarget.value = String(value)
+                  }
+                }}
+              />
+            )}
+            <small>{row.help}</small>
+          </label>
+        )
+      })}
+    </div>
+  )
+}
+
+export function JobBar({ kind }: { kind: string }) {
+  const { job } = app
+  if (!app.running || job.kind !== kind) return null
+  return (
+    <div class="job" role="status">
+      <progress max={1} value={job.fraction ?? 0} aria-label={job.stage} />
+      <span>{job.stage}</span>
+      <b>{Math.round(100 * (job.fraction ?? 0))} %</b>
+    </div>
+  )
+}
+
+// Three significant digits, as people write them.
+export function figure(value: number): string {
+  if (value === 0) return '0'
+  if (Math.abs(value) < 1e-4) return '<0.0001'
+  const digits = Math.max(0, 2 - Math.floor(Math.log10(Math.abs(value))))
+  return value.toFixed(Math.min(5, digits))
+}
+
+export const count = (value: number) => value.toLocaleString('en-GB').replace(/,/g, ' ')
+
+// Asks for files with the system's own dialogue.
+export function chooseFiles(accept: string, multiple: boolean, then: (files: File[]) => void) {
+  const input = document.createElement('input')
+  input.type = 'file'
+  input.accept = accept
+  input.multiple = multiple
+  input.onchange = () => input.files?.length && then([...input.files])
+  input.click()
+}

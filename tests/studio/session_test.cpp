@@ -1,0 +1,179 @@
+#include "session.h"
+
+#include "meshtween/geometry/shapes.h"
+#include "meshtween/io/mesh_io.h"
+#include "meshtween/io/output.h"
+#include "support/errors.h"
+#include "support/scratch.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace meshtween::studio {
+namespace fs = std::filesystem;
+namespace {
+
+// A sphere and the same one stretched, as files, and six markers at the ends of the axes.
+struct House {
+    Scratch scratch;
+    fs::path source = scratch.path("ball.ply"), target = scratch.path("egg.obj");
+    fs::path project = scratch.path("project") / "project.json";
+    Events events;
+
+    House() {
+        Mesh ball = sphere(3);
+        write_mesh(ball, source);
+        ball.positions = (2 * ball.positions).eval();
+        ball.positions.col(1) *= 1.5;
+        write_mesh(ball, target);
+    }
+    static Json document() {
+        Json markers = Json::array();
+        const double stretch[3] = {2, 3, 2};
+        for (int axis = 0; axis < 3; ++axis)
+            for (const double sign : {-1.0, 1.0}) {
+                Json from{0, 0, 0}, to{0, 0, 0};
+                from[std::size_t(axis)] = sign, to[std::size_t(axis)] = sign * stretch[axis];
+                markers.push_back(
+                    {{"id", "m" + std::to_string(markers.size())}, {"name", ""}, {"source", from}, {"target", to}});
+            }
+        return {{"markers", markers}, {"options", {{"fit", {{"rounds", 3}}}}}};
+    }
+    std::unique_ptr<Session> open(bool named = true) {
+        return std::make_unique<Session>(
+            project, named ? std::vector<fs::path>{source, target} : std::vector<fs::path>{}, events);
+    }
+};
+
+TEST(Session, fits_morphs_exports_and_remembers) {
+    House house;
+    auto session = house.open();
+    session->set_document(House::document());
+    session->start_fit(House::document()["options"]["fit"]);
+    session->wait();
+    Json state = session->state();
+    ASSERT_EQ(state["job"]["state"], "done") << state["job"].dump();
+    EXPECT_EQ(state["fit"]["marker_errors"].size(), 6U);
+    for (const auto& [id, error] : state["fit"]["marker_errors"].items()) EXPECT_LT(error.get<double>(), 1) << id;
+    const std::string fitted = session->fitted_buffer("positions");
+    EXPECT_EQ(fitted.size(), state["meshes"]["source"]["vertices"].get<std::size_t>() * 12);
+
+    session->start_path({{"method", "linear"}});
+    session->wait();
+    state = session->state();
+    ASSERT_EQ(state["paths"].size(), 1U) << state["job"].dump();
+    const std::string key = state["paths"][0]["key"];
+    const std::size_t last = state["paths"][0]["parameters"].size() - 1;
+    EXPECT_EQ(session->path_buffer(key, last, "positions"), fitted) << "the path ends at the fitted mesh";
+    message_of(ErrorKind::argument, [&] { session->path_buffer(key, last + 1, "positions"); });
+
+    session->start_export(
+        {{"names", {"fitted.obj", "frame_##.ply"}}, {"frames", 3}, {"options", {{"method", "linear"}}}});
+    session->wait();
+    ASSERT_EQ(session->state()["job"]["state"], "done") << session->state()["job"].dump();
+    EXPECT_EQ(session->state()["job"]["result"]["files"].size(), 4U);
+    EXPECT_TRUE(fs::exists(session->exported("frame_02.ply")));
+
+    session.reset();
+    session = house.open(false); // the project remembers, but a foreign folder's meshes must be named again
+    EXPECT_TRUE(session->state()["meshes"]["source"].is_null());
+    EXPECT_NE(session->state()["notes"].dump().find("was not opened"), std::string::npos);
+    EXPECT_EQ(session->state()["document"]["markers"].size(), 6U);
+}
+
+TEST(Session, keeps_the_fit_for_the_next_time) {
+    House house;
+    auto session = house.open();
+    session->set_document(House::document());
+    session->start_fit(nullptr);
+    session->wait();
+    const std::string fitted = session->fitted_buffer("positions");
+    const Json before = session->state()["fit"];
+    session.reset();
+    session = house.open();
+    EXPECT_EQ(session->state()["fit"], before);
+    EXPECT_EQ(session->fitted_buffer("positions"), fitted);
+    EXPECT_EQ(session->state()["document"]["options"]["fit"]["rounds"], 3);
+}
+
+TEST(Session, a_cancelled_fit_changes_nothing) {
+    House house;
+    const auto session = house.open();
+    session->set_document(House::document());
+    session->start_fit({{"rounds", 1000}, {"threshold", 1e-9}});
+    session->cancel();
+    session->wait();
+    EXPECT_EQ(session->state()["job"]["state"], "cancelled");
+    EXPECT_TRUE(session->state()["fit"].is_null());
+}
+
+TEST(Session, notices_a_mesh_that_changed) {
+    House house;
+    auto session = house.open();
+    EXPECT_EQ(session->changes(), Json({{"source", false}, {"target", false}}));
+    write_mesh(sphere(2), house.source);
+    EXPECT_EQ(session->changes(), Json({{"source", true}, {"target", false}}));
+    session->reload(Side::source);
+    EXPECT_EQ(session->changes()["source"], false);
+    EXPECT_EQ(session->state()["meshes"]["source"]["vertices"], sphere(2).positions.rows());
+    session.reset();
+    write_mesh(sphere(1), house.source);
+    session = house.open();
+    EXPECT_NE(session->state()["notes"].dump().find("changed since"), std::string::npos);
+    fs::remove(house.target);
+    session.reset();
+    session = house.open();
+    EXPECT_TRUE(session->state()["meshes"]["target"].is_null()) << "a mesh that is gone is told, not fatal";
+    EXPECT_EQ(session->state()["notes"].size(), 1U);
+}
+
+TEST(Session, refuses_what_cannot_be_and_keeps_what_was) {
+    House house;
+    const auto session = house.open();
+    session->set_document(House::document());
+    const Json before = session->project_json();
+    EXPECT_NE(message_of(ErrorKind::argument, [&] { session->start_path(nullptr); }).find("no fit yet"),
+              std::string::npos);
+    message_of(ErrorKind::argument, [&] { session->start_fit({{"rounds", "many"}}); });
+    message_of(ErrorKind::argument, [&] { session->start_fit({{"rounds", 1e9}}); });
+    message_of(ErrorKind::argument, [&] { session->start_fit({{"nonsense", 1}}); });
+    message_of(ErrorKind::argument, [&] { session->set_document({{"markers", 3}}); });
+    message_of(ErrorKind::file, [&] { session->open_upload(Side::target, "new.ply", "ply\ngarbage"); });
+    message_of(ErrorKind::file,
+               [&] { session->open_upload(Side::target, "far.gltf", R"({"buffers":[{"uri":"/etc/passwd"}]})"); });
+    message_of(ErrorKind::file, [&] { session->open(Side::target, "/etc/passwd"); });
+    EXPECT_EQ(session->project_json(), before);
+    session->set_document({{"markers", Json::array()}});
+    EXPECT_NE(message_of(ErrorKind::argument, [&] { session->start_fit(nullptr); }).find("needs 3"), std::string::npos);
+}
+
+TEST(Session, guesses_and_suggests) {
+    House house;
+    const auto session = house.open();
+    session->set_document(House::document());
+    const double s = 1 / std::sqrt(2.0);
+    const Json there = session->guesses(Side::source, {{s, s, 0}});
+    EXPECT_NEAR(there[0][0], 2 * s, 0.1);
+    EXPECT_NEAR(there[0][1], 3 * s, 0.15);
+    EXPECT_EQ(session->suggestions().size(), 5U);
+    Json few = House::document();
+    few["markers"] = Json::array({few["markers"][0]});
+    session->set_document(few);
+    EXPECT_NEAR(session->guesses(Side::target, {{0, 3, 0}})[0][1], 1, 0.05) << "without a warp: box on box";
+}
+
+TEST(Session, markers_go_out_and_come_in) {
+    House house;
+    const auto session = house.open();
+    session->set_document(House::document());
+    const std::string csv = session->export_markers("csv");
+    const Json back = session->import_markers("m.csv", csv, "", "");
+    ASSERT_EQ(back["pairs"].size(), 6U);
+    EXPECT_EQ(back["pairs"][3]["target"], House::document()["markers"][3]["target"]);
+    const std::string told = message_of(ErrorKind::file, [&] { session->import_markers("m.csv", "\xff\xfe", "", ""); });
+    EXPECT_EQ(told.find("/tmp"), std::string::npos) << "the temporary folder is nobody's business: " << told;
+}
+
+} // namespace
+} // namespace meshtween::studio
