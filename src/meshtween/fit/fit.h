@@ -20,11 +20,11 @@ enum class FitMethod {
 // Lengths are parts of the target's bounding-box diagonal.
 struct FitOptions {
     FitMethod method = FitMethod::surface;
-    RbfOptions warp;           // of the marker warp
-    int max_rounds = 40;       // of smoothing and projection
-    double threshold = 1e-4;   // stop where sqrt(E / n), E of Eq. 7 before a round's projection, falls under this
-    double least_cosine = 0.3; // between a vertex normal and the target's normal where it may be projected
-    std::function<void(const Points&)> watch; // called now and then, from fit's thread, with the mesh as it stands
+    RbfOptions warp;         // paper: of the marker warp
+    int max_rounds = 40;     // paper: of smoothing and projection
+    double threshold = 1e-4; // paper: stop where sqrt(E / n), E of Eq. 7 before a round's projection, falls under this
+    double least_cosine = 0.3; // paper: between a vertex normal and the target's normal where it may be projected
+    std::function<void(const Points&)> watch; // paper: called each round, from fit's thread, with the mesh so far
 };
 
 enum class FitEnd { converged, out_of_rounds, cancelled };
@@ -33,15 +33,17 @@ struct FitResult {
     Points positions; // n x 3: the source's vertices on the target
     FitEnd end = FitEnd::out_of_rounds;
     int rounds = 0;
-    double error = 0;               // E of Eq. 7 at the end, in squared parts of the diagonal, summed over vertices
-    std::vector<double> history;    // sqrt(E / n) of each round, parts of the diagonal, before its projection
-    long refused_steps = 0;         // vertex moves shortened because they would have turned a triangle over
-    std::vector<double> weights;    // n, 0..1: how far to trust each vertex; 0 where nothing on the target answers to it
+    double error = 0;            // E of Eq. 7 at the end, in squared parts of the diagonal, summed over vertices
+    std::vector<double> history; // sqrt(E / n) of each round, parts of the diagonal, before its projection
+    long refused_steps = 0;      // vertex moves shortened because they would have turned a triangle over
+    std::vector<double> weights; // n, 0..1: how far to trust each vertex; 0 where nothing on the target answers to it
     std::vector<std::string> notes; // for people: what was unusual
 };
 
 // Throws Error(argument) for options out of range, coordinates that are not finite and indices out of range,
-// Error(computation) for a mesh without area, fewer than 3 markers or markers that the warp cannot use (rbf.h).
+// Error(computation) for a mesh without area or markers on one line; for `paper` also for fewer than 3 markers or
+// markers that the warp cannot use (rbf.h). `surface` guesses its start where there are fewer than 3, and says so in
+// the notes.
 FitResult fit(const Mesh& source, const Mesh& target, std::span<const Marker> markers, const FitOptions& options = {},
               const Progress& progress = {});
 
