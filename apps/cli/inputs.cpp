@@ -4,15 +4,11 @@
 
 #include "meshtween/core/error.h"
 #include "meshtween/core/parallel.h"
-#include "meshtween/fit/markers.h"
-#include "meshtween/fit/quality.h"
 #include "meshtween/geometry/check.h"
 #include "meshtween/io/mesh_io.h"
 #include "meshtween/io/output.h"
 
 #include <fmt/format.h>
-
-#include <map>
 
 using namespace meshtween;
 
@@ -33,13 +29,13 @@ Mesh load_mesh(const std::string& path, Console& console) {
 
 MarkerPairs load_markers(const std::vector<std::string>& files, const Mesh& source, const Mesh& target,
                          Console& console) {
+    if (files.empty()) return {};
     MarkerPairs markers = files.size() == 2 ? read_marker_pairs(files[0], files[1], source, target)
                                             : read_marker_pairs(files[0], source, target);
     console.warn(files[0] + ": ", markers.notes);
-    if (markers.pairs.size() < 3)
+    if (markers.pairs.empty())
         throw Error(ErrorKind::file,
-                    fmt::format("{}: {} usable pair{} of markers; a fit needs 3 at least, 30 to 50 serve well",
-                                files[0], markers.pairs.size(), markers.pairs.size() == 1 ? "" : "s"));
+                    fmt::format("{}: no usable pair of markers; correct the file, or leave --markers out", files[0]));
     return markers;
 }
 
@@ -48,29 +44,6 @@ std::vector<Output> load_outputs(const std::vector<std::string>& names) {
     outputs.reserve(names.size());
     for (const std::string& name : names) outputs.push_back(output(name));
     return outputs;
-}
-
-void add_fit_flags(CLI::App& verb, FitFlags& flags) {
-    static const std::map<std::string, FitMethod> methods{{"paper", FitMethod::paper}, {"surface", FitMethod::surface}};
-    verb.add_option("--fit", flags.options.method,
-                    "How to fit: surface (a thin shell posed by the markers, then drawn onto the "
-                    "surface from coarse to fine) or paper (warp, then smooth and project)")
-        ->transform(CLI::CheckedTransformer(methods))
-        ->default_str("surface");
-    verb.add_option("--kernel", flags.kernel, "Of the marker warp: thin-plate (r^2 log r) or linear (r)")
-        ->check(CLI::IsMember({"thin-plate", "linear"}))
-        ->capture_default_str();
-    verb.add_option("--smoothing", flags.options.warp.smoothing,
-                    "Let the warp miss markers a little; 0 meets them exactly")
-        ->check(CLI::NonNegativeNumber)
-        ->capture_default_str();
-    verb.add_option("--rounds", flags.options.max_rounds, "Rounds of smoothing and projection at most")
-        ->check(CLI::Range(0, 100000))
-        ->capture_default_str();
-    verb.add_option("--threshold", flags.options.threshold,
-                    "Stop where the RMS distance falls under this part of the target's diagonal")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
 }
 
 void add_path_flags(CLI::App& verb, PathFlags& flags) {
@@ -95,30 +68,6 @@ void add_path_flags(CLI::App& verb, PathFlags& flags) {
     verb.add_option("--c2", flags.options.c2, "C2 of the dual method's Eq. 12, under 1")->capture_default_str();
 }
 
-Fitted run_fit(const Mesh& source, const Mesh& target, const MarkerPairs& markers, const FitFlags& flags,
-               const Points& truth, const Progress& progress, Console& console) {
-    const auto start = std::chrono::steady_clock::now();
-    FitOptions options = flags.options;
-    options.warp.kernel = flags.kernel == "linear" ? Kernel::linear : Kernel::thin_plate;
-    const FitResult result =
-        fit(source, target, place_markers(markers.pairs, source), options, part_of(progress, 0, 0.85));
-    stop_if_interrupted();
-    const double seconds = seconds_since(start);
-    console.warn("", result.notes);
-
-    Fitted fitted{source, to_json(result)};
-    fitted.mesh.positions = result.positions;
-    fitted.report["seconds"] = seconds;
-    keep_going(progress, 0.9, "measuring");
-    const Quality quality = measure(source, fitted.mesh, target, truth, markers.pairs);
-    fitted.report["quality"] = to_json(quality);
-    stop_if_interrupted();
-    console.note(fmt::format("fit: {:.4f} % to the target, {:.4f} % back, {} flipped of {} faces, {} cuts, {:.2f} s",
-                             quality.fitted_to_target.mean, quality.target_to_fitted.mean, quality.flipped,
-                             quality.triangles, quality.cuts, seconds));
-    return fitted;
-}
-
 void write_path(const Mesh& from, const Points& to, PathFlags flags, const std::vector<Output>& outputs,
                 const std::vector<Tile>& before, const std::string& title, const Progress& progress, Console& console,
                 Json& report) {
@@ -133,7 +82,8 @@ void write_path(const Mesh& from, const Points& to, PathFlags flags, const std::
         written = write_outputs({first, path, {}, flags.frames, title, before}, outputs, part_of(progress, 0.3, 1));
     } else {
         first.positions = path.at(flags.at.front());
-        written = write_still(first, fmt::format("u = {:.3g}", flags.at.front()), before, outputs);
+        written =
+            write_still(first, fmt::format("u = {:.3g}", flags.at.front()), before, outputs, part_of(progress, 0.3, 1));
     }
     stop_if_interrupted();
     Json& row = report["path"] = {{"method", name_of(flags.options.method)}, {"seconds", seconds_since(start)}};

@@ -5,7 +5,6 @@
 
 #include "meshtween/app/outputs.h"
 #include "meshtween/app/report.h"
-#include "meshtween/fit/fit.h"
 #include "meshtween/io/markers.h"
 #include "meshtween/morph/morph.h"
 
@@ -24,15 +23,10 @@ struct Common {
 };
 
 meshtween::Mesh load_mesh(const std::string& path, Console& console); // with warnings about what is unusual
+// None where no file is named. Throws Error(file) for a file without a usable pair.
 meshtween::MarkerPairs load_markers(const std::vector<std::string>& files, const meshtween::Mesh& source,
                                     const meshtween::Mesh& target, Console& console);
 std::vector<meshtween::Output> load_outputs(const std::vector<std::string>& names);
-
-struct FitFlags {
-    meshtween::FitOptions options;
-    std::string kernel = "thin-plate";
-};
-void add_fit_flags(CLI::App& verb, FitFlags& flags);
 
 struct PathFlags {
     meshtween::MorphOptions options;
@@ -41,15 +35,6 @@ struct PathFlags {
     std::vector<double> at;
 };
 void add_path_flags(CLI::App& verb, PathFlags& flags);
-
-// A fit with its progress, notes and report: what `fit` and `morph` share.
-struct Fitted {
-    meshtween::Mesh mesh; // the source's mesh on the target's surface
-    meshtween::Json report;
-};
-Fitted run_fit(const meshtween::Mesh& source, const meshtween::Mesh& target, const meshtween::MarkerPairs& markers,
-               const FitFlags& flags, const meshtween::Points& truth, const meshtween::Progress& progress,
-               Console& console);
 
 // Writes the path, or one shape of it with --at, and adds to the report.
 void write_path(const meshtween::Mesh& from, const meshtween::Points& to, PathFlags flags,

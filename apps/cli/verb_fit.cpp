@@ -1,4 +1,4 @@
-#include "inputs.h"
+#include "fit_run.h"
 
 #include <memory>
 
@@ -18,8 +18,8 @@ void add_fit(CLI::App& app, const Common& common) {
     const auto a = std::make_shared<Arguments>();
     verb->add_option("SOURCE", a->source, "Mesh whose connectivity is kept")->required();
     verb->add_option("TARGET", a->target, "Mesh whose surface it is brought to")->required();
-    verb->add_option("--markers", a->markers, "Marker pairs in one file, or the source's and the target's file")
-        ->required()
+    verb->add_option("--markers", a->markers,
+                     "Marker pairs in one file, or the source's and the target's file; without, the start is a guess")
         ->expected(1, 2);
     verb->add_option("-o,--output", a->outputs, "x.obj, .ply, .stl, .off, .glb or .png; may be given several times")
         ->required()
@@ -35,10 +35,14 @@ void add_fit(CLI::App& app, const Common& common) {
         const Mesh source = load_mesh(a->source, console), target = load_mesh(a->target, console);
         report["source"] = describe(source), report["target"] = describe(target);
         const MarkerPairs markers = load_markers(a->markers, source, target, console);
-        const Fitted fitted = run_fit(source, target, markers, a->fit, {}, console.progress(), console);
+        const Progress progress = console.progress();
+        const Fitted fitted =
+            run_fit(source, target, markers, a->fit, common.seed, part_of(progress, 0, 0.95), console);
         report["fit"] = fitted.report;
-        const Written written = write_still(fitted.mesh, "source's mesh on the target",
-                                            {{"source", source, {}}, {"target", target, {}}}, outputs);
+        const Written written =
+            write_still(fitted.mesh, "source's mesh on the target", {{"source", source, {}}, {"target", target, {}}},
+                        outputs, part_of(progress, 0.95, 1));
+        stop_if_interrupted();
         for (const auto& file : written.files) {
             report["outputs"].push_back(file.string());
             console.note("wrote " + file.string());

@@ -1,8 +1,4 @@
-#include "inputs.h"
-
-#include "meshtween/core/error.h"
-
-#include <fmt/format.h>
+#include "fit_run.h"
 
 #include <memory>
 
@@ -28,13 +24,13 @@ Points side(const MarkerPairs& markers, bool source) {
 }
 
 // Source to target: one fit.
-void morph_two(const Arguments& a, Console& console, Json& report) {
+void morph_two(const Arguments& a, std::uint32_t seed, Console& console, Json& report) {
     const auto outputs = load_outputs(a.outputs);
     const Mesh source = load_mesh(a.source, console), target = load_mesh(a.target, console);
     report["source"] = describe(source), report["target"] = describe(target);
     const MarkerPairs markers = load_markers(a.markers, source, target, console);
     const Progress progress = console.progress();
-    const Fitted fitted = run_fit(source, target, markers, a.fit, {}, part_of(progress, 0, 0.6), console);
+    const Fitted fitted = run_fit(source, target, markers, a.fit, seed, part_of(progress, 0, 0.6), console);
     report["fit"] = fitted.report;
     const std::vector<Tile> tiles{{"source", source, side(markers, true)},
                                   {"target", target, side(markers, false)},
@@ -44,7 +40,7 @@ void morph_two(const Arguments& a, Console& console, Json& report) {
 }
 
 // One template on both shapes (the paper's Fig. 12), then from one fit to the other.
-void morph_through_template(const Arguments& a, Console& console, Json& report) {
+void morph_through_template(const Arguments& a, std::uint32_t seed, Console& console, Json& report) {
     const auto outputs = load_outputs(a.outputs);
     const Mesh common = load_mesh(a.template_mesh, console);
     const Mesh first = load_mesh(a.source, console), second = load_mesh(a.target, console);
@@ -52,8 +48,8 @@ void morph_through_template(const Arguments& a, Console& console, Json& report) 
     const MarkerPairs to_first = load_markers(a.markers_a, common, first, console);
     const MarkerPairs to_second = load_markers(a.markers_b, common, second, console);
     const Progress progress = console.progress();
-    const Fitted from = run_fit(common, first, to_first, a.fit, {}, part_of(progress, 0, 0.35), console);
-    const Fitted to = run_fit(common, second, to_second, a.fit, {}, part_of(progress, 0.35, 0.7), console);
+    const Fitted from = run_fit(common, first, to_first, a.fit, seed, part_of(progress, 0, 0.35), console);
+    const Fitted to = run_fit(common, second, to_second, a.fit, seed, part_of(progress, 0.35, 0.7), console);
     report["fit_source"] = from.report, report["fit_target"] = to.report;
     const std::vector<Tile> tiles{{"template", common, side(to_first, true)},
                                   {"source", first, side(to_first, false)},
@@ -71,15 +67,15 @@ void add_morph(CLI::App& app, const Common& common) {
     verb->add_option("SOURCE", a->source, "Mesh to start from, whose connectivity everything keeps")->required();
     verb->add_option("TARGET", a->target, "Mesh to end at")->required();
     auto* markers =
-        verb->add_option("--markers", a->markers, "Marker pairs in one file, or the source's and the target's file")
+        verb->add_option(
+                "--markers", a->markers,
+                "Marker pairs in one file, or the source's and the target's file; without, the start is a guess")
             ->expected(1, 2);
     auto* with_template =
         verb->add_option("--template", a->template_mesh, "Mesh fitted to both, whose connectivity is kept");
-    auto* markers_a =
-        verb->add_option("--markers-a", a->markers_a, "Template and SOURCE")->expected(1, 2)->needs(with_template);
-    auto* markers_b =
-        verb->add_option("--markers-b", a->markers_b, "Template and TARGET")->expected(1, 2)->needs(with_template);
-    with_template->needs(markers_a)->needs(markers_b)->excludes(markers);
+    verb->add_option("--markers-a", a->markers_a, "Template and SOURCE")->expected(1, 2)->needs(with_template);
+    verb->add_option("--markers-b", a->markers_b, "Template and TARGET")->expected(1, 2)->needs(with_template);
+    with_template->excludes(markers);
     verb->add_option("-o,--output", a->outputs, "x.glb, x.html, x.png or frame_####.obj; may be given several times")
         ->required()
         ->expected(1)
@@ -88,16 +84,13 @@ void add_morph(CLI::App& app, const Common& common) {
     add_fit_flags(*verb, a->fit);
     add_path_flags(*verb, a->path);
     verb->callback([a, &common] {
-        if (a->template_mesh.empty() && a->markers.empty())
-            throw Error(ErrorKind::argument,
-                        "morph needs --markers FILE, or --template with --markers-a and --markers-b");
         const auto start = std::chrono::steady_clock::now();
         Console console(common.quiet);
         Json report = new_report("morph");
         if (a->template_mesh.empty())
-            morph_two(*a, console, report);
+            morph_two(*a, common.seed, console, report);
         else
-            morph_through_template(*a, console, report);
+            morph_through_template(*a, common.seed, console, report);
         finish_report(report, a->report, start);
     });
 }

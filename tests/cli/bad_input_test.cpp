@@ -32,6 +32,11 @@ std::vector<std::string> fit_with(const std::string& source, const std::string& 
     return {"fit", source, "#/good.obj", "--markers", markers, "-o", "#/out.obj"};
 }
 
+std::vector<std::string> and_then(std::vector<std::string> arguments, const std::vector<std::string>& more) {
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+}
+
 std::string binary_ply_header(const std::string& vertices) {
     return "ply\nformat binary_little_endian 1.0\nelement vertex " + vertices +
            "\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int "
@@ -80,11 +85,24 @@ const std::vector<Row> rows = {
     {"NoFaces", {{"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"}}, fit_with("#/a.obj"), 3, {"a.obj", "no faces"}},
     // Markers.
     {"NoMarkerFile", {}, fit_with("#/good.obj", "#/absent.csv"), 3, {"absent.csv"}},
-    {"TwoMarkers",
+    {"TwoMarkersForThePaper",
      {{"m.csv", "a,0,0,0,0,0,0\nb,1,0,0,1,0,0\n"}},
+     and_then(fit_with("#/good.obj", "#/m.csv"), {"--fit", "paper"}),
+     1,
+     {"3 pairs", "2", "--fit surface"}},
+    {"NoMarkersForThePaper",
+     {},
+     {"morph", "#/good.obj", "#/good.obj", "--fit", "paper", "-o", "#/f_#.obj"},
+     1,
+     {"3 pairs", "--fit surface"}},
+    {"NoUsableMarkers",
+     {{"m.csv", "name,sx,sy,sz,tx,ty,tz\na,0,0,0,,,\n"}},
      fit_with("#/good.obj", "#/m.csv"),
      3,
-     {"m.csv", "2 usable", "3"}},
+     {"m.csv", "no usable pair"}},
+    {"NegativeMarkerWeight", {}, and_then(fit_with("#/good.obj"), {"--marker-weight", "-1"}), 1, {"--marker-weight"}},
+    {"MarkerWeightNaN", {}, and_then(fit_with("#/good.obj"), {"--marker-weight", "nan"}), 1, {"--marker-weight"}},
+    {"MarkerWeightTooLarge", {}, and_then(fit_with("#/good.obj"), {"--marker-weight", "1e9"}), 1, {"10"}},
     {"MarkerNotANumber",
      {{"m.csv", four_markers + "e,x,0,0,1,0,0\n"}},
      fit_with("#/good.obj", "#/m.csv"),
@@ -138,12 +156,11 @@ const std::vector<Row> rows = {
     {"OutputIsAFolder", {}, {"tween", "#/good.obj", "#/good.obj", "-o", "#"}, 1, {"folder"}},
     {"OutputFolderAbsent", {}, {"tween", "#/good.obj", "#/good.obj", "-o", "#/no/f_#.obj"}, 3, {"no folder"}},
     {"UnknownSample", {}, {"sample", "nobody", "-o", "#/s"}, 1, {"nobody", "bow"}},
-    {"TemplateWithoutMarkers",
+    {"TemplateWithTheMarkersOfTwo",
      {},
-     {"morph", "#/good.obj", "#/good.obj", "--template", "#/good.obj", "-o", "#/f_#.obj"},
+     {"morph", "#/good.obj", "#/good.obj", "--template", "#/good.obj", "--markers", "#/markers.csv", "-o", "#/f_#.obj"},
      1,
-     {"--markers-a"}},
-    {"MorphWithoutMarkers", {}, {"morph", "#/good.obj", "#/good.obj", "-o", "#/f_#.obj"}, 1, {"--markers"}},
+     {"--markers", "--template"}},
     {"RotateWithoutAnAxis",
      {{"r.csv", "a,0,0,0,turn\nb,1,0,0,hold\nc,0,1,0,hold\nd,0,0,1,hold\n"}},
      {"rotate", "#/good.obj", "--markers", "#/r.csv", "--axis", "0,0,0", "--centre", "0,0,0", "--angle", "30", "-o",
@@ -220,6 +237,9 @@ const std::vector<Row> unusual_rows = {
      fit_with("#/good.obj", "#/m.csv"),
      0,
      {"far"}},
+    {"NoMarkers", {}, {"fit", "#/good.obj", "#/good.obj", "-o", "#/out.obj"}, 0, {"no markers", "guess"}},
+    {"OneMarker", {{"m.csv", "a,0,0,0,0,0,0\n"}}, fit_with("#/good.obj", "#/m.csv"), 0, {"1 marker"}},
+    {"TwoMarkers", {{"m.csv", "a,0,0,0,0,0,0\nb,1,0,0,1,0,0\n"}}, fit_with("#/good.obj", "#/m.csv"), 0, {"2 markers"}},
     {"MissingMarkerSide",
      {{"m.csv", four_markers + "gone,0,0,0.5,,,\n"}},
      fit_with("#/good.obj", "#/m.csv"),

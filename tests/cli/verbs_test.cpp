@@ -69,6 +69,19 @@ TEST_F(Verbs, FitThenMeasureAgreesWithTheReport) {
     EXPECT_TRUE(measured.contains("marker_error"));
 }
 
+TEST_F(Verbs, MarkersExactEndsOnTheMarkersAndSeedsReachTheMeasures) {
+    sample("build");
+    const auto fit_with_seed = [&](const char* seed) {
+        run({"fit", file("build_source.ply"), file("build_target.ply"), "--markers", file("build_markers.csv"),
+             "--markers-exact", "--seed", seed, "-o", file("fitted.ply"), "--report", file("r.json")});
+        return read_json(folder_ / "r.json")["fit"]["quality"];
+    };
+    const Json one = fit_with_seed("1"), two = fit_with_seed("2");
+    EXPECT_LT(one["marker_error"]["max"], 1e-7); // percent
+    EXPECT_NE(one["fitted_to_target"]["mean"], two["fitted_to_target"]["mean"]);
+    EXPECT_EQ(one["eq7"], two["eq7"]);
+}
+
 TEST_F(Verbs, TweenIsExactAtBothEnds) {
     sample("bar-bend");
     const auto from = meshtween::read_mesh(folder_ / "bar-bend_source.ply"),

@@ -168,4 +168,36 @@ TEST(SurfaceFit, WithoutMarkersItSaysThatTheStartIsAGuess) {
     EXPECT_TRUE(r.positions.allFinite());
 }
 
+TEST(SurfaceFit, WatchSeesTheWholeMeshEachRound) {
+    const Mesh m = sphere(4);
+    Mesh target = m;
+    target.positions.col(0) *= 1.4;
+    int seen = 0;
+    Points last;
+    FitOptions options;
+    options.watch = [&](const Points& x) {
+        EXPECT_EQ(x.rows(), m.positions.rows());
+        EXPECT_TRUE(x.allFinite());
+        last = x;
+        ++seen;
+    };
+    const FitResult r = surface_fit(m, target, vertex_markers(m, target.positions, 6), options);
+    EXPECT_EQ(seen, r.rounds);
+    EXPECT_LT(worst(last, r.positions), 0.01 * diagonal(target.positions)); // settling alone comes after the last
+}
+
+TEST(SurfaceFit, MarkersPullAsHardAsTheirWeightSays) {
+    const Mesh m = bar({1, 0.4, 0.25}, {32, 12, 8}, 0.05);
+    std::vector<Marker> markers = vertex_markers(m, m.positions, 12);
+    markers[5].target += Point(0.05, 0, 0); // what the others and the shape itself do not ask
+    const auto miss = [&](double weight) {
+        FitOptions options;
+        options.marker_weight = weight;
+        return (position(surface_fit(m, m, markers, options).positions, m.triangles, markers[5].source) -
+                markers[5].target)
+            .norm();
+    };
+    EXPECT_LT(miss(1), 0.2 * miss(0));
+}
+
 } // namespace

@@ -51,11 +51,19 @@ void write_sequence(const Playable& playable, const std::filesystem::path& patte
     }
 }
 
-void write_sheet(const Playable& playable, const std::filesystem::path& path) {
+// False where it was cancelled; then nothing is written.
+bool write_tiles(const std::vector<Tile>& tiles, const std::filesystem::path& path, const Progress& progress) {
+    const Image image = contact_sheet(tiles, {}, part_of(progress, 0, 0.9));
+    if (!keep_going(progress, 0.9, "writing")) return false;
+    write_png(image, path);
+    return true;
+}
+
+bool write_sheet(const Playable& playable, const std::filesystem::path& path, const Progress& progress) {
     std::vector<Tile> tiles = playable.before;
     for (const double u : {0.0, 0.25, 0.5, 0.75, 1.0})
         tiles.push_back({fmt::format("u = {:.2f}", u), with_positions(playable.mesh, playable.morph.at(u)), {}});
-    write_png(contact_sheet(tiles), path);
+    return write_tiles(tiles, path, progress);
 }
 
 } // namespace
@@ -130,14 +138,17 @@ Written write_outputs(const Playable& playable, const std::vector<Output>& outpu
         }
         if (kind == OutputKind::glb) write_whole(path, glb);
         if (kind == OutputKind::html) write_whole(path, morph_html(glb, play));
-        if (kind == OutputKind::sheet) write_sheet(playable, path);
+        if (kind == OutputKind::sheet && !write_sheet(playable, path, part)) {
+            written.cancelled = true;
+            break;
+        }
         written.files.push_back(path);
     }
     return written;
 }
 
 Written write_still(const Mesh& mesh, const std::string& caption, const std::vector<Tile>& before,
-                    const std::vector<Output>& outputs) {
+                    const std::vector<Output>& outputs, const Progress& progress) {
     for (const auto& [kind, path] : outputs)
         if (kind == OutputKind::html || kind == OutputKind::sequence)
             throw Error(
@@ -149,7 +160,10 @@ Written write_still(const Mesh& mesh, const std::string& caption, const std::vec
         if (kind == OutputKind::sheet) {
             std::vector<Tile> tiles = before;
             tiles.push_back({caption, mesh, {}});
-            write_png(contact_sheet(tiles), path);
+            if (!write_tiles(tiles, path, progress)) {
+                written.cancelled = true;
+                break;
+            }
         } else {
             write_mesh(mesh, path);
         }

@@ -55,6 +55,6 @@ Written write_outputs(const Playable& playable, const std::vector<Output>& outpu
 
 // One shape of it: meshes and still GLBs, a picture for .png. Throws Error(argument) for a page or a sequence.
 Written write_still(const Mesh& mesh, const std::string& caption, const std::vector<Tile>& before,
-                    const std::vector<Output>& outputs);
+                    const std::vector<Output>& outputs, const Progress& progress = {});
 
 } // namespace meshtween

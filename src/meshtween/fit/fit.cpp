@@ -1,6 +1,7 @@
 #include "meshtween/fit/fit.h"
 
 #include "meshtween/core/error.h"
+#include "meshtween/fit/meet_markers.h"
 #include "meshtween/fit/paper_fit.h"
 #include "meshtween/fit/surface_fit.h"
 #include "meshtween/geometry/measure.h"
@@ -13,6 +14,8 @@ namespace meshtween {
 namespace {
 
 using Eigen::Index;
+
+constexpr double most_marker_weight = 10; // more would leave the solver nothing but markers
 
 void check_mesh(const Mesh& mesh, const char* which) {
     if (mesh.triangles.rows() == 0)
@@ -40,6 +43,10 @@ void check_options(const FitOptions& options) {
         throw Error(ErrorKind::argument, fmt::format("the threshold is {}: give 0 or more", options.threshold));
     if (!(std::abs(options.least_cosine) <= 1))
         throw Error(ErrorKind::argument, fmt::format("the least cosine is {}: give -1 to 1", options.least_cosine));
+    if (!(options.marker_weight >= 0 && options.marker_weight <= most_marker_weight))
+        throw Error(ErrorKind::argument, fmt::format("the marker weight is {}: give 0 to {}; for more, ask for exact "
+                                                     "markers",
+                                                     options.marker_weight, most_marker_weight));
 }
 
 void check_markers(const Mesh& source, std::span<const Marker> markers) {
@@ -54,6 +61,17 @@ void check_markers(const Mesh& source, std::span<const Marker> markers) {
     }
 }
 
+FitResult fit_by_method(const Mesh& source, const Mesh& target, std::span<const Marker> markers,
+                        const FitOptions& options, const Progress& progress) {
+    switch (options.method) {
+    case FitMethod::paper:
+        return paper_fit(source, target, markers, options, progress);
+    case FitMethod::surface:
+        return surface_fit(source, target, markers, options, progress);
+    }
+    throw Error(ErrorKind::argument, "no such way to fit");
+}
+
 } // namespace
 
 FitResult fit(const Mesh& source, const Mesh& target, std::span<const Marker> markers, const FitOptions& options,
@@ -62,13 +80,16 @@ FitResult fit(const Mesh& source, const Mesh& target, std::span<const Marker> ma
     check_mesh(source, "source");
     check_mesh(target, "target");
     check_markers(source, markers);
-    switch (options.method) {
-    case FitMethod::paper:
-        return paper_fit(source, target, markers, options, progress);
-    case FitMethod::surface:
-        return surface_fit(source, target, markers, options, progress);
+    FitResult result = fit_by_method(source, target, markers, options, progress);
+    if (options.markers_exact && !markers.empty() && result.end != FitEnd::cancelled) {
+        MetMarkers met = meet_markers({result.positions, source.triangles, {}, {}, {}}, target, markers);
+        result.positions = std::move(met.positions);
+        for (const std::size_t k : met.missed)
+            result.notes.push_back(fmt::format("marker '{}' cannot be met exactly beside its neighbours: the source "
+                                               "is too coarse there, refine it or take a marker away",
+                                               markers[k].name));
     }
-    throw Error(ErrorKind::argument, "no such way to fit");
+    return result;
 }
 
 } // namespace meshtween

@@ -107,6 +107,12 @@ Points articulate(const ShellLevels& shells, const FitTarget& target) {
     return x;
 }
 
+// The whole mesh as a coarser level shows it.
+Points on_finest(const ShellLevels& shells, std::size_t level, Points x) {
+    for (; level > 0; --level) x = refine_positions(shells, level, x, true);
+    return x;
+}
+
 void measure_markers(const Points& x, const Mesh& source, std::span<const Marker> markers, const Points& goals,
                      FitResult& result) {
     for (std::size_t k = 0; k < markers.size(); ++k) {
@@ -120,8 +126,8 @@ void measure_markers(const Points& x, const Mesh& source, std::span<const Marker
 
 } // namespace
 
-FitResult surface_fit(const Mesh& source, const Mesh& target_mesh, std::span<const Marker> markers, const FitOptions&,
-                      const Progress& progress) {
+FitResult surface_fit(const Mesh& source, const Mesh& target_mesh, std::span<const Marker> markers,
+                      const FitOptions& options, const Progress& progress) {
     FitResult result;
     const Frame frame{target_mesh.positions.colwise().mean(), diagonal(target_mesh.positions)};
     const FitTarget target = fit_target(frame.in(target_mesh.positions), target_mesh.triangles);
@@ -143,6 +149,7 @@ FitResult surface_fit(const Mesh& source, const Mesh& target_mesh, std::span<con
     RelaxWeights weights;
     weights.length = first_length;
     weights.membrane = 1e-3;
+    weights.pins *= options.marker_weight;
     double done = 0, work = 0; // in vertices seen, for the progress
     for (const Level& level : shells.levels) work += static_cast<double>(level.positions.rows()) * rounds_a_level;
     for (std::size_t k = levels; k-- > 0;) {
@@ -155,6 +162,7 @@ FitResult surface_fit(const Mesh& source, const Mesh& target_mesh, std::span<con
             result.weights = std::move(relaxed.trust);
             done += static_cast<double>(x.rows());
             ++result.rounds;
+            if (options.watch) options.watch(frame.out(on_finest(shells, k, x)));
         }
         weights.membrane = membrane_share(strain(shells.shells[k], x));
         if (k > 0) x = refine_positions(shells, k, x, weights.with_scale);

@@ -1,0 +1,86 @@
+#include "fit_run.h"
+
+#include "meshtween/core/error.h"
+#include "meshtween/fit/markers.h"
+#include "meshtween/fit/quality.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+using namespace meshtween;
+
+namespace {
+
+// A range check alone lets nan through.
+CLI::Validator a_number_in(double least, double most) {
+    return CLI::Validator(
+        [=](const std::string& text) {
+            double value = 0;
+            return CLI::detail::lexical_cast(text, value) && value >= least && value <= most
+                       ? ""
+                       : fmt::format("{} is not a number from {} to {}", text, least, most);
+        },
+        fmt::format("{}..{}", least, most));
+}
+
+} // namespace
+
+void add_fit_flags(CLI::App& verb, FitFlags& flags) {
+    static const std::map<std::string, FitMethod> methods{{"paper", FitMethod::paper}, {"surface", FitMethod::surface}};
+    verb.add_option("--fit", flags.options.method,
+                    "How to fit: surface (a thin shell posed by the markers, then drawn onto the "
+                    "surface from coarse to fine) or paper (warp, then smooth and project)")
+        ->transform(CLI::CheckedTransformer(methods))
+        ->default_str("surface");
+    verb.add_option("--marker-weight", flags.options.marker_weight,
+                    "How hard markers pull in the surface fit beside the usual 1: they yield where it is under 0.0001 "
+                    "or so; 0 lets them say the pose only")
+        ->check(a_number_in(0, 10))
+        ->capture_default_str();
+    verb.add_flag("--markers-exact", flags.options.markers_exact,
+                  "Meet every marker to 1e-9 of the diagonal, also where that leaves the surface a little");
+    verb.add_option("--kernel", flags.kernel, "Of the paper's marker warp: thin-plate (r^2 log r) or linear (r)")
+        ->check(CLI::IsMember({"thin-plate", "linear"}))
+        ->capture_default_str();
+    verb.add_option("--smoothing", flags.options.warp.smoothing,
+                    "Let the paper's warp miss markers a little; 0 meets them exactly")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    verb.add_option("--rounds", flags.options.max_rounds, "Rounds of the paper's smoothing and projection at most")
+        ->check(CLI::Range(0, 100000))
+        ->capture_default_str();
+    verb.add_option("--threshold", flags.options.threshold,
+                    "Stop the paper's rounds where the RMS distance falls under this part of the target's diagonal")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+}
+
+Fitted run_fit(const Mesh& source, const Mesh& target, const MarkerPairs& markers, const FitFlags& flags,
+               std::uint32_t seed, const Progress& progress, Console& console) {
+    const auto start = std::chrono::steady_clock::now();
+    FitOptions options = flags.options;
+    if (options.method == FitMethod::paper && markers.pairs.size() < 3)
+        throw Error(ErrorKind::argument,
+                    fmt::format("--fit paper needs 3 pairs of markers at least, here {} {}; add some, or use --fit "
+                                "surface, which does with any number",
+                                markers.pairs.size() == 1 ? "is" : "are", markers.pairs.size()));
+    options.warp.kernel = flags.kernel == "linear" ? Kernel::linear : Kernel::thin_plate;
+    const FitResult result =
+        fit(source, target, place_markers(markers.pairs, source), options, part_of(progress, 0, 0.85));
+    stop_if_interrupted();
+    const double seconds = seconds_since(start);
+    console.warn("", result.notes);
+
+    Fitted fitted{source, to_json(result)};
+    fitted.mesh.positions = result.positions;
+    fitted.report["seconds"] = seconds;
+    keep_going(progress, 0.9, "measuring");
+    const Quality quality = measure(source, fitted.mesh, target, {}, markers.pairs, seed);
+    fitted.report["quality"] = to_json(quality);
+    stop_if_interrupted();
+    console.note(fmt::format("fit: {:.4f} % to the target, {:.4f} % back, {} flipped of {} faces, {} cuts, {:.2f} s",
+                             quality.fitted_to_target.mean, quality.target_to_fitted.mean, quality.flipped,
+                             quality.triangles, quality.cuts, seconds));
+    return fitted;
+}
