@@ -16,6 +16,7 @@ namespace {
 
 struct Arguments {
     std::string name, folder;
+    int subdivisions = 0;
 };
 
 std::string csv(const Points& points) {
@@ -52,13 +53,15 @@ void add_sample(CLI::App& app, const Common& common) {
     auto* verb = app.add_subcommand("sample", "Write an embedded sample: source, target, markers, truth");
     std::string list = "Samples:\n";
     for (const SampleInfo& info : samples()) list += fmt::format("  {:<12} {}\n", info.name, info.description);
-    verb->footer(list + "Example: meshtween sample bow -o samples");
+    verb->footer(list + "Examples:\n  meshtween sample bow -o samples\n  meshtween sample bow --subdivide 2 -o large");
     const auto a = std::make_shared<Arguments>();
     verb->add_option("NAME", a->name, "Which sample")->required();
     verb->add_option("-o,--output", a->folder, "Folder to write to; made where it does not exist")->required();
+    verb->add_option("--subdivide", a->subdivisions,
+                     "Make it larger: each triangle becomes four, so many times (0 to 4)");
     verb->callback([a, &common] {
         Console console(common.quiet);
-        const Sample made = sample(a->name);
+        const Sample made = sample(a->name, a->subdivisions);
         std::error_code failure;
         std::filesystem::create_directories(a->folder, failure);
         if (failure && !std::filesystem::is_directory(a->folder))

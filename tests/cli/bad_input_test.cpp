@@ -155,6 +155,7 @@ const std::vector<Row> rows = {
     {"UnknownOutput", {}, {"tween", "#/good.obj", "#/good.obj", "-o", "#/f.mp4"}, 1, {".mp4", ".glb"}},
     {"OutputIsAFolder", {}, {"tween", "#/good.obj", "#/good.obj", "-o", "#"}, 1, {"folder"}},
     {"OutputFolderAbsent", {}, {"tween", "#/good.obj", "#/good.obj", "-o", "#/no/f_#.obj"}, 3, {"no folder"}},
+    {"SubdividedTooOften", {}, {"sample", "bow", "--subdivide", "9", "-o", "#/s"}, 1, {"9 times", "0 to 4"}},
     {"UnknownSample", {}, {"sample", "nobody", "-o", "#/s"}, 1, {"nobody", "bow"}},
     {"TemplateWithTheMarkersOfTwo",
      {},

@@ -138,6 +138,15 @@ TEST(Samples, UnknownNameTellsThoseThatExist) {
     }
 }
 
+TEST(Samples, SubdividedOneHasTheSameShapes) {
+    const Sample s = sample("torus"), fine = sample("torus", 1);
+    EXPECT_EQ(fine.source.triangles.rows(), 4 * s.source.triangles.rows());
+    EXPECT_EQ(fine.target.positions.topRows(s.target.positions.rows()), s.target.positions);
+    EXPECT_EQ(fine.truth.rows(), fine.source.positions.rows());
+    expect_true(fine);
+    expect_marked(fine);
+}
+
 TEST(Samples, MiddleOfTheTurnedSphereIsASphere) {
     const Sample s = sample("sphere-turn");
     EXPECT_LT((s.middle.rowwise().norm().array() - 1).abs().maxCoeff(), 1e-12);

@@ -1,5 +1,6 @@
 #include "meshtween/geometry/figure.h"
 #include "meshtween/geometry/sample_makers.h"
+#include "meshtween/geometry/subdivide.h"
 
 namespace meshtween {
 namespace {
@@ -56,27 +57,28 @@ Mesh target_mesh() {
 }
 
 Sample figures(const FigureBuild& build_a, const FigurePose& pose_a, const FigureBuild& build_b,
-               const FigurePose& pose_b) {
+               const FigurePose& pose_b, int subdivisions) {
     const Landmarks marks = figure_landmarks();
     return pair_of({source_mesh(), target_mesh(), [=](const Points& p) { return figure(p, build_a, pose_a); },
-                    [=](const Points& p) { return figure(p, build_b, pose_b); }, marks.names, marks.points});
+                    [=](const Points& p) { return figure(p, build_b, pose_b); }, marks.names, marks.points},
+                   subdivisions);
 }
 
 } // namespace
 
-Sample bow_sample() {
-    return figures(woman(), standing(), man(), bowing());
+Sample bow_sample(int subdivisions) {
+    return figures(woman(), standing(), man(), bowing(), subdivisions);
 }
-Sample build_sample() {
-    return figures(woman(), standing(), man(), standing());
+Sample build_sample(int subdivisions) {
+    return figures(woman(), standing(), man(), standing(), subdivisions);
 }
-Sample arms_sample() {
-    return figures(woman(), standing(), woman(), arms_out());
+Sample arms_sample(int subdivisions) {
+    return figures(woman(), standing(), woman(), arms_out(), subdivisions);
 }
 
-Sample bow_pose_sample() {
+Sample bow_pose_sample(int subdivisions) {
     Sample sample;
-    sample.source = sample.target = source_mesh();
+    sample.source = sample.target = subdivide(source_mesh(), subdivisions);
     sample.same_connectivity = true;
     const Points rest = sample.source.positions;
     sample.source.positions = figure(rest, woman(), standing());

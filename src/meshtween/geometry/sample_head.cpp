@@ -146,14 +146,15 @@ Points rugged_head(const Points& rest) {
 
 } // namespace
 
-Sample head_sample() {
+Sample head_sample(int subdivisions) {
     const Field body = head_body();
     const Box box{{-0.6, -1.2, -0.8}, {0.6, 0.7, 0.65}}, other{{-0.617, -1.21, -0.814}, {0.6, 0.7, 0.65}};
     const Landmarks marks = landmarks(body, head_places(), 0.8);
     return pair_of(
         {remesh(isosurface(body, box, 0.03), body, {.deviation = 0.0010, .shortest = 0.010, .longest = 0.045}),
          remesh(isosurface(body, other, 0.031), body, {.deviation = 0.0007, .shortest = 0.008, .longest = 0.040}),
-         slender_head, rugged_head, marks.names, marks.points});
+         slender_head, rugged_head, marks.names, marks.points},
+        subdivisions);
 }
 
 } // namespace meshtween

@@ -16,16 +16,16 @@ struct SampleParts {
     Points marks; // on that surface
 };
 
-// Two meshes of one surface, each carried by its own smooth map of space: what belongs together is known. The truth and
-// the markers are put on the flat triangles.
-Sample pair_of(const SampleParts& parts);
+// Two meshes of one surface, each subdivided and carried by its own smooth map of space: what belongs together is
+// known. The truth and the markers are put on the flat triangles.
+Sample pair_of(const SampleParts& parts, int subdivisions);
 
-Sample bow_sample();
-Sample bow_pose_sample();
-Sample build_sample();
-Sample arms_sample();
-Sample head_sample();
-Sample torus_sample();
-Sample cup_sample();
+Sample bow_sample(int subdivisions);
+Sample bow_pose_sample(int subdivisions);
+Sample build_sample(int subdivisions);
+Sample arms_sample(int subdivisions);
+Sample head_sample(int subdivisions);
+Sample torus_sample(int subdivisions);
+Sample cup_sample(int subdivisions);
 
 } // namespace meshtween

@@ -114,7 +114,7 @@ Point amphora(const Point& p) {
 
 } // namespace
 
-Sample torus_sample() {
+Sample torus_sample(int subdivisions) {
     const auto meshes = two_meshes(ring, {{-1.5, -0.5, -1.5}, {1.5, 0.5, 1.5}}, 0.06,
                                    {.deviation = 0.0025, .shortest = 0.03, .longest = 0.09});
     std::vector<LandmarkSpot> places;
@@ -127,17 +127,18 @@ Sample torus_sample() {
     }
     const Landmarks marks = landmarks(ring, places, 0.6);
     return pair_of({meshes[0], meshes[1], each([](const Point& p) { return reshaped_ring(p, 1, 0.08, 0); }),
-                    each([](const Point& p) { return reshaped_ring(p, 0.62, 0.28, 0.22); }), marks.names,
-                    marks.points});
+                    each([](const Point& p) { return reshaped_ring(p, 0.62, 0.28, 0.22); }), marks.names, marks.points},
+                   subdivisions);
 }
 
-Sample cup_sample() {
+Sample cup_sample(int subdivisions) {
     const Field body = cup();
     const auto meshes = two_meshes(body, {{-0.95, -0.1, -0.65}, {0.95, 1.35, 0.65}}, 0.03,
                                    {.deviation = 0.0016, .shortest = 0.015, .longest = 0.05});
     const Landmarks marks = landmarks(body, cup_places(), 0.12);
     return pair_of(
-        {meshes[0], meshes[1], each([](const Point& p) { return p; }), each(amphora), marks.names, marks.points});
+        {meshes[0], meshes[1], each([](const Point& p) { return p; }), each(amphora), marks.names, marks.points},
+        subdivisions);
 }
 
 } // namespace meshtween

@@ -3,6 +3,7 @@
 #include "meshtween/core/error.h"
 #include "meshtween/geometry/sample_makers.h"
 #include "meshtween/geometry/shapes.h"
+#include "meshtween/geometry/subdivide.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,8 +15,8 @@ namespace {
 
 constexpr double bar_length = 4;
 
-Mesh straight_bar() {
-    return bar({bar_length, 1, 1}, {64, 16, 16}, 0.15);
+Mesh straight_bar(int subdivisions) {
+    return subdivide(bar({bar_length, 1, 1}, {64, 16, 16}, 0.15), subdivisions);
 }
 
 // A sample of two shapes of one mesh, whose half-way shape is known.
@@ -30,22 +31,22 @@ Sample same_mesh(Mesh source, Points target, Points middle) {
     return sample;
 }
 
-Sample bar_bend() {
-    const Mesh straight = straight_bar();
+Sample bar_bend(int subdivisions) {
+    const Mesh straight = straight_bar(subdivisions);
     const double angle = std::numbers::pi;
     return same_mesh(straight, bend(straight.positions, bar_length, angle),
                      bend(straight.positions, bar_length, angle / 2));
 }
 
-Sample bar_twist() {
-    const Mesh straight = straight_bar();
+Sample bar_twist(int subdivisions) {
+    const Mesh straight = straight_bar(subdivisions);
     const double angle = std::numbers::pi;
     return same_mesh(straight, twist(straight.positions, bar_length, angle),
                      twist(straight.positions, bar_length, angle / 2));
 }
 
-Sample sphere_turn() {
-    const Mesh ball = sphere(4);
+Sample sphere_turn(int subdivisions) {
+    const Mesh ball = sphere(4 + subdivisions);
     const Point axis(1, 2, 0.5);
     const double angle = 2 * std::numbers::pi / 3;
     return same_mesh(ball, turn(ball.positions, axis, angle), turn(ball.positions, axis, angle / 2));
@@ -53,7 +54,7 @@ Sample sphere_turn() {
 
 struct Entry {
     SampleInfo info;
-    Sample (*make)();
+    Sample (*make)(int subdivisions);
 };
 
 const std::vector<Entry>& entries() {
@@ -83,10 +84,13 @@ const std::vector<SampleInfo>& samples() {
     return infos;
 }
 
-Sample sample(std::string_view name) {
+Sample sample(std::string_view name, int subdivisions) {
+    if (subdivisions < 0 || subdivisions > 4)
+        throw Error(ErrorKind::argument,
+                    fmt::format("a sample cannot be subdivided {} times: give 0 to 4", subdivisions));
     for (const Entry& entry : entries())
         if (entry.info.name == name) {
-            Sample made = entry.make();
+            Sample made = entry.make(subdivisions);
             made.name = entry.info.name;
             made.description = entry.info.description;
             return made;

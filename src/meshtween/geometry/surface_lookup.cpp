@@ -1,7 +1,7 @@
 #include "meshtween/geometry/surface_lookup.h"
 
 #include "meshtween/core/parallel.h"
-#include "meshtween/geometry/closest_on_triangle.h"
+#include "meshtween/geometry/place_on_triangle.h"
 
 #include <algorithm>
 #include <limits>
@@ -47,11 +47,13 @@ Point SurfaceLookup::closest(const Point& p) const {
                                               [](const Entry& e, long c) { return e.cell < c; });
                 for (; entry != entries_.end() && entry->cell == here; ++entry) {
                     const auto corners = mesh_.triangles.row(entry->triangle);
-                    const Point q =
-                        closest_on_triangle(p, mesh_.positions.row(corners[0]), mesh_.positions.row(corners[1]),
-                                            mesh_.positions.row(corners[2]));
-                    const double distance = (q - p).squaredNorm();
-                    if (distance < least) least = distance, best = q;
+                    const auto there =
+                        place_on_triangle(p, mesh_.positions.row(corners[0]), mesh_.positions.row(corners[1]),
+                                          mesh_.positions.row(corners[2]));
+                    if (there.squared_distance >= least) continue;
+                    least = there.squared_distance;
+                    best = position(mesh_.positions, mesh_.triangles,
+                                    {entry->triangle, {1 - there.v - there.w, there.v, there.w}});
                 }
             }
     return best;

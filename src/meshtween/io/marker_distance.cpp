@@ -1,8 +1,8 @@
 #include "meshtween/io/marker_distance.h"
 
 #include "meshtween/core/parallel.h"
-#include "meshtween/geometry/closest_on_triangle.h"
 #include "meshtween/geometry/measure.h"
+#include "meshtween/geometry/place_on_triangle.h"
 
 #include <Eigen/Geometry>
 
@@ -53,7 +53,7 @@ public:
 private:
     double distance_to(Eigen::Index t, const Point& point) const {
         const auto corner = [&](int k) -> Point { return mesh_.positions.row(mesh_.triangles(t, k)); };
-        return (closest_on_triangle(point, corner(0), corner(1), corner(2)) - point).norm();
+        return std::sqrt(place_on_triangle(point, corner(0), corner(1), corner(2)).squared_distance);
     }
 
     const Mesh& mesh_;
