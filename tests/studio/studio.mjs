@@ -81,6 +81,7 @@ export function models(folder) {
 }
 
 export async function saved(page) {
+  await page.waitForFunction(() => window.studio.saver.state === 'saved')
   await page.locator('.saved.saved:text-is("Saved")').waitFor()
 }
 

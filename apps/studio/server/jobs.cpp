@@ -53,9 +53,11 @@ void Jobs::run(const std::string& kind, const Work& work) {
 }
 
 void Jobs::tell(Json status) {
-    events_.publish("job", status);
-    const std::lock_guard lock(mutex_);
-    status_ = std::move(status);
+    {
+        const std::lock_guard lock(mutex_);
+        status_ = status;
+    }
+    events_.publish("job", status); // last: whoever hears of it and asks must be told the same
 }
 
 void Jobs::cancel() {

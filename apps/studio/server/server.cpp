@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <httplib.h>
 
+#include <charconv>
 #include <new>
 
 namespace meshtween::studio {
@@ -165,7 +166,11 @@ void Server::stream_events(const httplib::Request& request, httplib::Response& r
         --streams_;
         return refuse(response, 503, "too many pages are open");
     }
-    const std::uint64_t first = events_.end();
+    // A browser whose stream broke says which message was its last.
+    const std::string last = only_header(request, "Last-Event-ID");
+    std::uint64_t first = events_.end(), seen = 0;
+    if (std::from_chars(last.data(), last.data() + last.size(), seen).ec == std::errc() && seen < first)
+        first = seen + 1;
     tabs_.join(tab);
     events_.publish("tabs", {{"editor", tabs_.editor()}});
     response.set_chunked_content_provider(

@@ -25,7 +25,8 @@ async function get<T>(path: string): Promise<T> {
 }
 
 async function post<T = unknown>(path: string, body: BodyInit = ''): Promise<T> {
-  return (await ask(path, { method: 'POST', body, headers: { 'X-Tab': tab } })).json() as Promise<T>
+  const keepalive = typeof body === 'string' && body.length < 60000 // such a request outlives its page
+  return (await ask(path, { method: 'POST', body, keepalive, headers: { 'X-Tab': tab } })).json() as Promise<T>
 }
 
 export async function bytes(path: string, values: Record<string, string | number> = {}): Promise<ArrayBuffer> {

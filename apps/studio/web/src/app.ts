@@ -110,8 +110,8 @@ class App {
   }
 
   start() {
-    this.store.subscribe(() => {
-      if (!this.readOnly) this.saver.queue(this.store.document)
+    this.store.subscribe((edited) => {
+      if (edited && !this.readOnly) this.saver.queue(this.store.document)
       this.changed()
     })
     listen(
@@ -120,7 +120,7 @@ class App {
         tabs: ({ editor }: { editor: string }) => this.set({ editor }),
         state: () => void this.attempt(() => this.refresh(true)),
         live: () => this.live(),
-        resync: () => void this.attempt(() => this.refresh(false)),
+        resync: () => void this.attempt(() => this.catchUp()),
       },
       (lost) => this.set({ lost }),
     )
@@ -134,6 +134,13 @@ class App {
     if (job.state === 'failed') this.toast(job.error ?? 'The job failed.', true)
     if (job.state === 'cancelled') this.toast('Cancelled. What was there before is still there.')
     this.jobDone(job)
+  }
+
+  // After messages were missed: what they told, from the program's state.
+  private async catchUp() {
+    const ran = this.running
+    await this.refresh(false)
+    if (ran && !this.running) this.told(this.job)
   }
 
   private async lookOutside() {

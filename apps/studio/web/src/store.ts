@@ -18,9 +18,10 @@ export class Store {
   document = emptyDocument()
   private past: Edit[] = []
   private future: Edit[] = []
-  private listeners = new Set<() => void>()
+  private listeners = new Set<(edited: boolean) => void>()
 
-  subscribe(listener: () => void) {
+  // Calls back with whether a person changed the document; else it came from the program.
+  subscribe(listener: (edited: boolean) => void) {
     this.listeners.add(listener)
   }
 
@@ -69,11 +70,11 @@ export class Store {
   replace(document: Document) {
     this.past = []
     this.future = []
-    this.show(document)
+    this.show(document, false)
   }
 
-  private show(document: Document) {
+  private show(document: Document, edited = true) {
     this.document = document
-    for (const listener of this.listeners) listener()
+    for (const listener of this.listeners) listener(edited)
   }
 }
