@@ -1,4 +1,5 @@
 #include "fit_run.h"
+#include "path_inputs.h"
 
 #include <memory>
 
@@ -35,8 +36,13 @@ void morph_two(const Arguments& a, std::uint32_t seed, Console& console, Json& r
     const std::vector<Tile> tiles{{"source", source, side(markers, true)},
                                   {"target", target, side(markers, false)},
                                   {"source's mesh on the target", fitted.mesh, {}}};
-    write_path(source, fitted.mesh.positions, a.path, outputs, tiles, a.source + " to " + a.target,
-               part_of(progress, 0.6, 1), console, report);
+    write_path({source,
+                {source.positions, fitted.mesh.positions},
+                outputs,
+                tiles,
+                a.source + " to " + a.target,
+                !a.report.empty()},
+               a.path, part_of(progress, 0.6, 1), console, report);
 }
 
 // One template on both shapes (the paper's Fig. 12), then from one fit to the other.
@@ -54,8 +60,13 @@ void morph_through_template(const Arguments& a, std::uint32_t seed, Console& con
     const std::vector<Tile> tiles{{"template", common, side(to_first, true)},
                                   {"source", first, side(to_first, false)},
                                   {"target", second, side(to_second, false)}};
-    write_path(from.mesh, to.mesh.positions, a.path, outputs, tiles, a.source + " to " + a.target,
-               part_of(progress, 0.7, 1), console, report);
+    write_path({from.mesh,
+                {from.mesh.positions, to.mesh.positions},
+                outputs,
+                tiles,
+                a.source + " to " + a.target,
+                !a.report.empty()},
+               a.path, part_of(progress, 0.7, 1), console, report);
 }
 
 } // namespace
@@ -76,7 +87,8 @@ void add_morph(CLI::App& app, const Common& common) {
     verb->add_option("--markers-a", a->markers_a, "Template and SOURCE")->expected(1, 2)->needs(with_template);
     verb->add_option("--markers-b", a->markers_b, "Template and TARGET")->expected(1, 2)->needs(with_template);
     with_template->excludes(markers);
-    verb->add_option("-o,--output", a->outputs, "x.glb, x.html, x.png or frame_####.obj; may be given several times")
+    verb->add_option("-o,--output", a->outputs,
+                     "x.glb, x.html, x.png, x.svg or frame_####.obj; may be given several times")
         ->required()
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -2,6 +2,7 @@
 #include "meshtween/app/export.h"
 #include "meshtween/io/gltf_write.h"
 #include "meshtween/io/output.h"
+#include "meshtween/morph/keys.h"
 #include "support/twist.h"
 
 #include <fmt/format.h>
@@ -37,7 +38,7 @@ Mesh painted(Mesh mesh) {
 // u and all vertices of the curve there, for a few u, as JSON.
 std::string shapes_of(const Curve& curve) {
     std::string text = "[";
-    for (const double u : {0.0, 0.05, 0.31, 0.5, 0.77, 1.0}) {
+    for (const double u : {0.0, 0.05, 0.13, 0.31, 0.44, 0.5, 0.62, 0.77, 0.9, 1.0}) {
         const Points p = curve.at(u);
         text += fmt::format("{}{{\"u\":{},\"vertices\":[{}]}}", text.size() > 1 ? "," : "", u,
                             fmt::join(p.data(), p.data() + p.size(), ","));
@@ -65,6 +66,12 @@ int main(int count, char** arguments) {
 
     const Mesh large = straight_bar(5); // more vertices than 16 bits count
     write_whole(folder / "morph_large.glb", morph_glb(large, twist_curve(large, 1, 5)));
+
+    const Curve keys = key_path(mesh, {mesh.positions, curve.nodes.back(), twist(mesh.positions, 3, 4.5)}).curve;
+    const std::string keys_glb = morph_glb(mesh, keys, {.ping_pong = false, .ease = Ease::in_out, .title = "Keys"});
+    write_whole(folder / "keys.glb", keys_glb);
+    write_whole(folder / "keys.html", morph_html(keys_glb, {.ease = Ease::in_out, .title = "Keys"}));
+    write_whole(folder / "keys.json", shapes_of(keys));
 
     Curve far = curve; // needs the node's translation
     for (Points& node : far.nodes) node.rowwise() += Point(2e5, -1e6, 3e5);

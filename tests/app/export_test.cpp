@@ -2,6 +2,7 @@
 
 #include "meshtween/core/error.h"
 #include "meshtween/geometry/measure.h"
+#include "meshtween/morph/keys.h"
 #include "support/errors.h"
 #include "support/glb.h"
 #include "support/twist.h"
@@ -79,6 +80,20 @@ TEST(Export, StraightWeightsPlayTheCurve) {
     for (int i = 0; i <= 500; ++i) worst = std::max(worst, largest(played.at(3.0 * i / 500) - curve.at(i / 500.0)));
     EXPECT_LT(worst / diagonal(mesh.positions), 1.2e-5); // the keys' 1e-5 and float's rounding
     EXPECT_GT(worst / diagonal(mesh.positions), 2e-6);   // not for the price of far too many keys
+}
+
+TEST(Export, EaseAndKeysPlayAlike) {
+    const Mesh mesh = straight_bar();
+    const Curve curve =
+        key_path(mesh, {mesh.positions, twist(mesh.positions, 3, 2), twist(mesh.positions, 3, 3)}).curve;
+    const Played played(morph_glb(mesh, curve, {.seconds = 2, .ping_pong = false, .ease = Ease::in_out, .title = ""}));
+    double worst = 0;
+    for (int i = 0; i <= 300; ++i) {
+        const double t = i / 300.0;
+        worst = std::max(worst, largest(played.at(2 * t) - curve.at(ease(Ease::in_out, t))));
+    }
+    EXPECT_LT(worst / diagonal(mesh.positions), 2e-5);
+    EXPECT_EQ(played.glb.root["meshes"][0]["extras"]["knots"].get<std::vector<int>>(), curve.knots);
 }
 
 TEST(Export, EndsAreExactToRounding) {

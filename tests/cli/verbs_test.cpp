@@ -32,7 +32,7 @@ protected:
 
 TEST_F(Verbs, VersionAndHelpGoToStandardOutput) {
     EXPECT_FALSE(run({"--version"}).out.empty());
-    for (const char* verb : {"morph", "fit", "tween", "rotate", "measure", "check", "sample"}) {
+    for (const char* verb : {"morph", "fit", "tween", "blend", "rotate", "measure", "check", "sample"}) {
         const Ran ran = run({verb, "--help"});
         EXPECT_NE(ran.out.find("Example"), std::string::npos) << verb;
     }
@@ -97,6 +97,83 @@ TEST_F(Verbs, TweenIsExactAtBothEnds) {
         EXPECT_LT((meshtween::read_mesh(folder_ / "at1.ply").positions - to.positions).cwiseAbs().maxCoeff(), tolerance)
             << method;
     }
+}
+
+TEST_F(Verbs, TweenGoesThroughSeveralShapesAndTellsHowWell) {
+    sample("bar-bend");
+    const std::string a = file("bar-bend_source.ply"), b = file("bar-bend_target.ply");
+    run({"tween", a, b, a, "--times", "0,0.25,1", "--frames", "5", "--ping-pong", "-o", file("f_#.ply"), "-o",
+         file("x.svg"), "--report", file("r.json")});
+    const auto shape = [&](const std::string& name) { return meshtween::read_mesh(name).positions; };
+    EXPECT_LT((shape(file("f_1.ply")) - shape(b)).cwiseAbs().maxCoeff(), 1e-9);
+    EXPECT_LT((shape(file("f_4.ply")) - shape(a)).cwiseAbs().maxCoeff(), 1e-9);
+    EXPECT_EQ(shape(file("f_7.ply")), shape(file("f_1.ply"))); // back again, without the ends
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "f_8.ply"));
+    std::ifstream svg(folder_ / "x.svg");
+    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(svg), {}).substr(0, 4), "<svg");
+    const Json path = read_json(folder_ / "r.json")["path"];
+    ASSERT_EQ(path["shapes"].size(), 21u); // eleven from key to key
+    for (const Json& frame : path["shapes"]) {
+        EXPECT_NEAR(frame["volume_ratio"], 1, 0.02);
+        EXPECT_EQ(frame["flipped_faces"], 0);
+        EXPECT_EQ(frame["self_intersections"], 0);
+    }
+}
+
+TEST_F(Verbs, TargetsCapTheFileAndTellTheCost) {
+    sample("bar-bend");
+    const Ran ran = run({"tween", file("bar-bend_source.ply"), file("bar-bend_target.ply"), "--targets", "3", "-o",
+                         file("x.glb"), "--report", file("r.json")});
+    const Json curve = read_json(folder_ / "r.json")["path"]["curve"];
+    EXPECT_EQ(curve["meshes"], 4);
+    EXPECT_GT(curve["deviation"], curve["tolerance"]);
+    EXPECT_NE(ran.err.find("--targets"), std::string::npos) << ran.err;
+}
+
+TEST_F(Verbs, EaseMovesFramesInTime) {
+    sample("bar-bend");
+    const std::string a = file("bar-bend_source.ply"), b = file("bar-bend_target.ply");
+    run({"tween", a, b, "--ease", "in", "--frames", "3", "-o", file("f_#.ply")});
+    run({"tween", a, b, "--at", "0.25", "-o", file("q.ply")}); // in: half of the time is a quarter of the way
+    const auto middle = meshtween::read_mesh(folder_ / "f_1.ply").positions,
+               quarter = meshtween::read_mesh(folder_ / "q.ply").positions;
+    EXPECT_LT((middle - quarter).rowwise().norm().maxCoeff(), 1e-4 * meshtween::diagonal(quarter));
+}
+
+TEST_F(Verbs, RegionsMoveAtTheirTimes) {
+    sample("bar-bend");
+    const std::string a = file("bar-bend_source.ply");
+    const auto bar = meshtween::read_mesh(a).positions;
+    meshtween::Mesh longer = meshtween::read_mesh(a);
+    longer.positions.col(1) *= 1.5;
+    meshtween::write_mesh(longer, folder_ / "wide.ply");
+    Eigen::Index low = 0, high = 0;
+    bar.col(0).minCoeff(&low), bar.col(0).maxCoeff(&high);
+    std::ofstream(folder_ / "r.csv") << "vertex,start,end\n" << low << ",0,0.4\n" << high << ",0.6,1\n";
+    run({"tween", a, file("wide.ply"), "--method", "linear", "--regions", file("r.csv"), "--at", "0.5", "-o",
+         file("half.ply")});
+    const auto half = meshtween::read_mesh(folder_ / "half.ply").positions;
+    EXPECT_NEAR(half(low, 1), 1.5 * bar(low, 1), 0.05 * std::abs(bar(low, 1)));
+    EXPECT_NEAR(half(high, 1), bar(high, 1), 0.05 * std::abs(bar(high, 1)));
+}
+
+TEST_F(Verbs, BlendIsAMeanAndACaricature) {
+    sample("build");
+    const std::string a = file("build_source.ply");
+    meshtween::Mesh other = meshtween::read_mesh(a);
+    const auto shape = other.positions;
+    other.positions.col(0) *= 1.2;
+    meshtween::write_mesh(other, folder_ / "b.ply");
+    run({"blend", a, file("b.ply"), "--method", "linear", "-o", file("mean.ply")});
+    EXPECT_NEAR((meshtween::read_mesh(folder_ / "mean.ply").positions.col(0) - 1.1 * shape.col(0)).norm(), 0, 1e-9);
+    run({"blend", a, file("b.ply"), "--method", "linear", "--weights", "3,-1", "-o", file("over.ply")});
+    EXPECT_NEAR((meshtween::read_mesh(folder_ / "over.ply").positions.col(0) - 0.9 * shape.col(0)).norm(), 0, 1e-9);
+}
+
+TEST_F(Verbs, QuadsInTwoPosesAreCutAlike) {
+    std::ofstream(folder_ / "a.obj") << "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0.4\nv 1 1 1\nf 1 2 3 4\nf 1 2 5\n";
+    std::ofstream(folder_ / "b.obj") << "v 0 0 0\nv 2 0 0.4\nv 2 1 0\nv 0 1 0\nv 1 1 1\nf 1 2 3 4\nf 1 2 5\n";
+    run({"tween", file("a.obj"), file("b.obj"), "--at", "0.5", "-o", file("c.obj")});
 }
 
 TEST_F(Verbs, TheSameBitsWithOneAndTwoThreads) {

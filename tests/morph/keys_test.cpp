@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 namespace meshtween {
 namespace {
 
@@ -15,7 +17,7 @@ std::vector<Points> three_shapes() {
     return {bar.positions, test::bent(bar.positions, 1.5), test::twisted(bar.positions, 2)};
 }
 
-Points velocity(const KeyPath& path, double t, double step) {
+Points velocity(const Curve& path, double t, double step) {
     return (path.at(t + step) - path.at(t)) / step;
 }
 
@@ -23,7 +25,7 @@ TEST(Keys, PassTheirShapesAtTheirTimes) {
     const std::vector<Points> shapes = three_shapes();
     KeyOptions options;
     options.times = {0, 0.3, 1};
-    const KeyPath path = key_path(bar, shapes, options);
+    const Curve path = key_path(bar, shapes, options).curve;
     for (std::size_t k = 0; k < shapes.size(); ++k)
         EXPECT_LT(test::distance(path.at(options.times[k]), shapes[k]), 1e-9) << k;
 }
@@ -31,11 +33,11 @@ TEST(Keys, PassTheirShapesAtTheirTimes) {
 TEST(Keys, VelocityIsContinuous) {
     KeyOptions options;
     options.closed = true;
-    const KeyPath path = key_path(bar, three_shapes(), options);
+    const Curve path = key_path(bar, three_shapes(), options).curve;
     const double h = 1e-5;
     for (const double t : {1.0 / 3, 2.0 / 3}) {
         const Points before = velocity(path, t - h, h), after = velocity(path, t, h);
-        EXPECT_LT(test::distance(before, after), 0.01 * after.rowwise().norm().maxCoeff()) << t;
+        EXPECT_LT(test::distance(before, after), 0.01 * diagonal(bar.positions)) << t; // which it goes in a piece
     }
     EXPECT_LT(test::distance(velocity(path, 0, h), velocity(path, 1 - h, h)), 0.1);
     EXPECT_LT(test::distance(path.at(0), path.at(1)), 1e-9);
@@ -43,7 +45,51 @@ TEST(Keys, VelocityIsContinuous) {
 
 TEST(Keys, TwoShapesAreTheMethodsOwnPath) {
     const Points to = test::bent(bar.positions, 1.5);
-    EXPECT_LT(test::distance(key_path(bar, {bar.positions, to}).at(0.4), morph(bar, to).at(0.4)), 1e-4 * diagonal(to));
+    EXPECT_LT(test::distance(key_path(bar, {bar.positions, to}).curve.at(0.4), morph(bar, to).at(0.4)),
+              1e-4 * diagonal(to));
+}
+
+TEST(Keys, OnePieceHasWeightAtATime) {
+    const Curve path = key_path(bar, three_shapes()).curve;
+    ASSERT_EQ(path.knots.size(), 3u);
+    EXPECT_EQ(path.parameters[static_cast<std::size_t>(path.knots[1])], 0.5);
+    const std::vector<double> weights = path.weights(0.3);
+    for (std::size_t k = 0; k < weights.size(); ++k)
+        EXPECT_EQ(weights[k] != 0, k <= static_cast<std::size_t>(path.knots[1])) << k;
+    EXPECT_NEAR(std::accumulate(weights.begin(), weights.end(), 0.0), 1, 1e-12);
+}
+
+TEST(Keys, ATurnOfTheWayKeepsVolume) { // a bend, then a twist: no corner is cut across turns
+    const std::vector<Points> shapes{bar.positions, test::bent(bar.positions, 1.5), test::twisted(bar.positions, 3)};
+    const Curve path = key_path(bar, shapes).curve;
+    for (const double t : {0.1, 0.3, 0.45, 0.5, 0.55, 0.7, 0.9})
+        EXPECT_NEAR(volume(path.at(t), bar.triangles), volume(bar.positions, bar.triangles), 4) << t; // of 180
+}
+
+TEST(Keys, AMotionThatGoesOnDoesNotStop) {
+    const std::vector<Points> shapes{bar.positions, test::bent(bar.positions, 0.4), test::bent(bar.positions, 0.8)};
+    KeyOptions options;
+    options.times = {0, 0.7, 1}; // slow, then fast
+    const Curve path = key_path(bar, shapes, options).curve;
+    const double h = 1e-4, mean = test::distance(shapes[2], shapes[0]);
+    EXPECT_GT(velocity(path, 0.7, h).rowwise().norm().maxCoeff(), 0.5 * mean);
+    EXPECT_LT(test::distance(velocity(path, 0.7 - h, h), velocity(path, 0.7, h)), 0.01 * mean);
+}
+
+TEST(Keys, RegionsKeepTheirTimesInEveryPiece) {
+    Points spread = bar.positions; // no turn, and the centre stays
+    for (Eigen::Index i = 0; i < spread.rows(); ++i) spread(i, 1) *= 1.5;
+    KeyOptions options;
+    options.timing = RegionTiming{Eigen::VectorXd::Zero(spread.rows()), Eigen::VectorXd::Constant(spread.rows(), 0.5)};
+    const Curve path = key_path(bar, {bar.positions, spread, bar.positions}, options).curve;
+    for (const double t : {0.3, 0.45}) // all have arrived by half of the piece
+        EXPECT_LT(test::distance(path.at(t), spread), 0.01 * diagonal(spread)) << t;
+}
+
+TEST(Keys, CancellingIsAResult) {
+    const KeyPath path = key_path(bar, three_shapes(), {}, [](double, std::string_view) { return false; });
+    EXPECT_TRUE(path.curve.cancelled);
+    EXPECT_TRUE(path.curve.nodes.empty());
 }
 
 TEST(Keys, BadKeysAreErrors) {

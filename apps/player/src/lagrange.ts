@@ -12,3 +12,18 @@ export function lagrange(parameters: readonly number[]): (u: number) => number[]
         return terms.map((term) => term / sum);
     };
 }
+
+// The same where one polynomial follows the other: `knots` are the nodes at which pieces begin and end.
+export function piecewise(parameters: readonly number[], knots: readonly number[]): (u: number) => number[] {
+    const pieces = knots.slice(1).map((last, p) => ({
+        first: knots[p]!,
+        end: parameters[last]!,
+        weights: lagrange(parameters.slice(knots[p], last + 1)),
+    }));
+    return (u) => {
+        const piece = pieces.find(({ end }) => u <= end) ?? pieces[pieces.length - 1]!;
+        const all = parameters.map(() => 0);
+        piece.weights(u).forEach((weight, k) => (all[piece.first + k] = weight));
+        return all;
+    };
+}

@@ -1,12 +1,14 @@
 // The player of an exported page: the model and the options stand in the page itself, nothing is fetched.
 import './style.css';
 import { advanced, type Clock } from './clock';
+import type { Ease } from './ease';
 import { bytesOf, loadModel, type Model } from './model';
 import { makeStage, type Stage } from './stage';
 
 interface Options {
     seconds: number;
     pingPong: boolean;
+    ease: Ease;
 }
 
 // For tests: `await window.meshtween` gives what the page shows.
@@ -48,6 +50,7 @@ function run(model: Model, stage: Stage, options: Options): Hook {
         pingPong: options.pingPong,
         speed: 1,
         seconds: options.seconds,
+        ease: options.ease,
     };
     let last = 0;
 

@@ -1,7 +1,7 @@
 // The page's GLB: its shapes, and the mesh that shows one of those between them.
 import { Box3, Matrix4, Mesh, Vector3, type BufferAttribute, type Group } from 'three';
 import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
-import { lagrange } from './lagrange';
+import { lagrange, piecewise } from './lagrange';
 
 export interface Model {
     scene: Group;
@@ -35,7 +35,8 @@ export async function loadModel(glb: ArrayBuffer): Promise<Model> {
 
     const toScene = mesh.matrixWorld.clone();
     const parameters = (mesh.userData['parameters'] as number[] | undefined) ?? [0];
-    const weights = lagrange(parameters);
+    const knots = mesh.userData['knots'] as number[] | undefined;
+    const weights = knots ? piecewise(parameters, knots) : lagrange(parameters);
     const influences = mesh.morphTargetInfluences ?? [];
     if (influences.length !== parameters.length - 1) throw new Error('the file does not say where its shapes lie');
     return {

@@ -152,20 +152,18 @@ void Session::start_export(const Json& request) {
         if (!stills.empty()) tell(write_still(fitted->mesh, "source's mesh on the target", {}, stills));
         if (!plays.empty()) {
             const Mesh& source = open.source->mesh;
-            const Morph path = morph(source, fitted->mesh.positions, options, part_of(progress, 0, 0.3));
-            if (!keep_going(progress, 0.3, "writing")) return nullptr;
-            Mesh first = source;
-            first.positions = path.at(0);
-            const std::vector<Tile> tiles{{"source", source, side_of_pairs(pairs, Side::source)},
-                                          {"target", open.target->mesh, side_of_pairs(pairs, Side::target)},
-                                          {"source's mesh on the target", fitted->mesh, {}}};
-            tell(write_outputs({first,
-                                path,
-                                {},
-                                frames,
-                                open.source->path.stem().string() + " to " + open.target->path.stem().string(),
-                                tiles},
-                               plays, part_of(progress, 0.3, 1)));
+            const Morph between = morph(source, fitted->mesh.positions, options, part_of(progress, 0, 0.2));
+            Playable playable;
+            playable.path = curve(between, {}, part_of(progress, 0.2, 0.7));
+            if (playable.path.cancelled) return nullptr;
+            playable.mesh = source;
+            playable.mesh.positions = playable.path.nodes.front();
+            playable.frames = frames;
+            playable.play.title = open.source->path.stem().string() + " to " + open.target->path.stem().string();
+            playable.before = {{"source", source, side_of_pairs(pairs, Side::source)},
+                               {"target", open.target->mesh, side_of_pairs(pairs, Side::target)},
+                               {"source's mesh on the target", fitted->mesh, {}}};
+            tell(write_outputs(playable, plays, part_of(progress, 0.7, 1)));
         }
         return {{"files", files}, {"folder", outputs.front().path.parent_path().string()}};
     });

@@ -22,12 +22,12 @@ namespace {
 constexpr double key_tolerance = 1e-5; // of the diagonal: how far a viewer's frame may lie beside the curve
 constexpr int most_keys = 4096;
 
-// The largest distance between the curve and `count` chords of it, measured at their middles.
-double chord_error(const Curve& curve, int count) {
+// The largest distance between the curve and `count` chords of it, equal in time, measured at their middles.
+double chord_error(const Curve& curve, Ease kind, int count) {
     const auto shapes = static_cast<Eigen::Index>(curve.nodes.size());
     Eigen::MatrixXd gaps(count, shapes); // weights in the middle less the mean of those at the ends
-    const auto weights = [&](double u) -> Eigen::RowVectorXd {
-        const std::vector<double> w = curve.weights(u);
+    const auto weights = [&](double t) -> Eigen::RowVectorXd {
+        const std::vector<double> w = curve.weights(ease(kind, t));
         return Eigen::Map<const Eigen::RowVectorXd>(w.data(), shapes);
     };
     for (int i = 0; i < count; ++i) {
@@ -44,10 +44,10 @@ double chord_error(const Curve& curve, int count) {
     return worst.empty() ? 0 : std::sqrt(*std::max_element(worst.begin(), worst.end()));
 }
 
-// How many equal steps of u keep straight weights within the tolerance.
-int steps_for(const Curve& curve) {
+// How many equal steps of time keep straight weights within the tolerance.
+int steps_for(const Curve& curve, Ease kind) {
     const int first = std::max<int>(16, 4 * static_cast<int>(curve.nodes.size()));
-    const double error = chord_error(curve, first), allowed = key_tolerance * diagonal(curve.nodes.front());
+    const double error = chord_error(curve, kind, first), allowed = key_tolerance * diagonal(curve.nodes.front());
     if (!(allowed > 0) || error <= 0) return 1;
     // A tenth more: the first chords are not yet quite parabolas.
     return static_cast<int>(std::clamp(std::ceil(1.1 * first * std::sqrt(error / allowed)), 1.0, most_keys * 1.0));
@@ -59,11 +59,12 @@ GltfMorph animation(const Curve& curve, const PlayOptions& options) {
     for (std::size_t k = 1; k < curve.nodes.size(); ++k)
         morph.names.push_back(fmt::format("u = {:.6g}", curve.parameters[k]));
     morph.parameters = curve.parameters;
-    const int steps = steps_for(curve), last = options.ping_pong ? 2 * steps : steps;
+    morph.knots = curve.knots;
+    const int steps = steps_for(curve, options.ease), last = options.ping_pong ? 2 * steps : steps;
     for (int i = 0; i <= last; ++i) {
-        const double u = 1 - std::abs(1 - static_cast<double>(i) / steps);
+        const double t = 1 - std::abs(1 - static_cast<double>(i) / steps);
         morph.times.push_back(static_cast<float>(options.seconds * i / steps));
-        const std::vector<double> weights = curve.weights(std::clamp(u, 0.0, 1.0));
+        const std::vector<double> weights = curve.weights(ease(options.ease, std::clamp(t, 0.0, 1.0)));
         for (std::size_t k = 1; k < weights.size(); ++k) morph.weights.push_back(static_cast<float>(weights[k]));
     }
     return morph;
@@ -127,7 +128,8 @@ std::string morph_glb(const Mesh& mesh, const Curve& curve, const PlayOptions& o
 }
 
 std::string morph_html(const std::string& glb, const PlayOptions& options) {
-    const nlohmann::json played = {{"seconds", options.seconds}, {"pingPong", options.ping_pong}};
+    const nlohmann::json played = {
+        {"seconds", options.seconds}, {"pingPong", options.ping_pong}, {"ease", name_of(options.ease)}};
     const std::pair<std::string_view, std::string> parts[] = {
         {"@@TITLE@@", html_escaped(options.title.empty() ? "Morph" : options.title)},
         {"@@OPTIONS@@", played.dump()},

@@ -3,6 +3,7 @@
 
 #include "meshtween/core/mesh.h"
 #include "meshtween/morph/curve.h"
+#include "meshtween/morph/timing.h"
 
 #include <filesystem>
 #include <string>
@@ -10,9 +11,10 @@
 namespace meshtween {
 
 struct PlayOptions {
-    double seconds = 2;    // from one end to the other
-    bool ping_pong = true; // and back again
-    std::string title;     // shown by the page
+    double seconds = 2;       // from one end to the other
+    bool ping_pong = true;    // and back again
+    Ease ease = Ease::linear; // of the time from one end to the other
+    std::string title;        // shown by the page
 };
 
 // A binary glTF: `mesh` carries triangles, UVs and colours, the curve's nodes become morph targets with normals, and a

@@ -1,6 +1,6 @@
 #include "meshtween/app/outputs.h"
 
-#include "meshtween/app/export.h"
+#include "meshtween/app/path_plot.h"
 #include "meshtween/core/error.h"
 #include "meshtween/io/mesh_io.h"
 #include "meshtween/io/output.h"
@@ -37,16 +37,21 @@ void write_frame(const Mesh& mesh, double u, const std::filesystem::path& path) 
         write_mesh(mesh, path);
 }
 
+// The shape at a moment of the whole.
+Mesh shown_at(const Playable& playable, double time) {
+    return with_positions(playable.mesh, playable.path.at(ease(playable.play.ease, time)));
+}
+
 void write_sequence(const Playable& playable, const std::filesystem::path& pattern, const Progress& progress,
                     Written& written) {
-    for (int i = 0; i < playable.frames; ++i) {
-        const double u = playable.frames > 1 ? double(i) / (playable.frames - 1) : 0.5;
-        if (!keep_going(progress, double(i) / playable.frames, "writing frames")) {
+    const std::vector<double> times = frame_times(playable.frames, playable.order);
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        if (!keep_going(progress, double(i) / double(times.size()), "writing frames")) {
             written.cancelled = true;
             return;
         }
-        const auto path = numbered(pattern, i);
-        write_frame(with_positions(playable.mesh, playable.morph.at(u)), u, path);
+        const auto path = numbered(pattern, static_cast<int>(i));
+        write_frame(shown_at(playable, times[i]), ease(playable.play.ease, times[i]), path);
         written.files.push_back(path);
     }
 }
@@ -61,9 +66,34 @@ bool write_tiles(const std::vector<Tile>& tiles, const std::filesystem::path& pa
 
 bool write_sheet(const Playable& playable, const std::filesystem::path& path, const Progress& progress) {
     std::vector<Tile> tiles = playable.before;
-    for (const double u : {0.0, 0.25, 0.5, 0.75, 1.0})
-        tiles.push_back({fmt::format("u = {:.2f}", u), with_positions(playable.mesh, playable.morph.at(u)), {}});
+    const std::vector<double> keys = key_times(playable.path);
+    const int parts = keys.size() == 2 ? 4 : 2; // tiles from key to key
+    for (std::size_t p = 0; p + 1 < keys.size(); ++p)
+        for (int i = p == 0 ? 0 : 1; i <= parts; ++i) {
+            const double u = keys[p] + (keys[p + 1] - keys[p]) * i / parts;
+            tiles.push_back({fmt::format("u = {:.2f}", u), with_positions(playable.mesh, playable.path.at(u)), {}});
+        }
     return write_tiles(tiles, path, progress);
+}
+
+void write_plot(const Playable& playable, const std::filesystem::path& path, const Progress& progress,
+                Written& written) {
+    PathQuality quality = playable.quality;
+    if (quality.frames.empty())
+        quality = path_quality(
+            playable.mesh.triangles, [&](double u) { return playable.path.at(u); }, {.keys = key_times(playable.path)},
+            progress);
+    written.cancelled = quality.cancelled;
+    if (!written.cancelled) write_whole(path, path_plot({{playable.play.title, quality}}));
+}
+
+void refuse_one_mesh(const std::vector<Output>& outputs) {
+    for (const Output& out : outputs)
+        if (out.kind == OutputKind::mesh)
+            throw Error(ErrorKind::argument,
+                        fmt::format("-o {0} is one mesh: give --at U to say which, or write a sequence, such as {1}",
+                                    out.path.string(),
+                                    (out.path.stem().string() + "_####" + out.path.extension().string())));
 }
 
 } // namespace
@@ -82,12 +112,14 @@ Output output(const std::string& name) {
     if (extension == ".glb") return {OutputKind::glb, path};
     if (extension == ".html") return {OutputKind::html, path};
     if (extension == ".png") return {OutputKind::sheet, path};
+    if (extension == ".svg") return {OutputKind::plot, path};
     if (is_mesh_extension(extension) && extension != ".gltf") return {OutputKind::mesh, path};
     throw Error(
         ErrorKind::argument,
-        fmt::format("-o {}: cannot tell what to write from \"{}\"; use .glb, .html, .png, .obj, .ply, .stl, .off, or "
-                    "frame_####.obj for a numbered sequence",
-                    name, extension));
+        fmt::format(
+            "-o {}: cannot tell what to write from \"{}\"; use .glb, .html, .png, .svg, .obj, .ply, .stl, .off, "
+            "or frame_####.obj for a numbered sequence",
+            name, extension));
 }
 
 std::filesystem::path numbered(const std::filesystem::path& pattern, int number) {
@@ -99,50 +131,36 @@ std::filesystem::path numbered(const std::filesystem::path& pattern, int number)
     return pattern.parent_path() / file;
 }
 
+std::vector<double> frame_times(int frames, FrameOrder order) {
+    std::vector<double> times;
+    const int steps = order == FrameOrder::around ? frames : frames - 1;
+    for (int i = 0; i < frames; ++i) times.push_back(steps > 0 ? double(i) / steps : 0.5);
+    if (order == FrameOrder::and_back)
+        for (int i = frames - 2; i > 0; --i) times.push_back(times[static_cast<std::size_t>(i)]);
+    return times;
+}
+
 Written write_outputs(const Playable& playable, const std::vector<Output>& outputs, const Progress& progress) {
-    for (const Output& out : outputs)
-        if (out.kind == OutputKind::mesh)
-            throw Error(ErrorKind::argument,
-                        fmt::format("-o {0} is one mesh: give --at U to say which, or write a sequence, such as {1}",
-                                    out.path.string(),
-                                    (out.path.stem().string() + "_####" + out.path.extension().string())));
+    refuse_one_mesh(outputs);
     Written written;
-    const bool plays = std::any_of(outputs.begin(), outputs.end(), [](const Output& out) {
-        return out.kind == OutputKind::glb || out.kind == OutputKind::html;
-    });
     std::string glb;
-    PlayOptions play;
-    play.title = playable.title;
-    if (plays) {
-        const Curve path = curve(playable.morph, playable.curve, part_of(progress, 0, 0.7));
-        if (!keep_going(progress, 0.7, "writing")) {
-            written.cancelled = true;
-            return written;
-        }
-        written.nodes = static_cast<int>(path.nodes.size());
-        written.deviation = path.deviation;
-        glb = morph_glb(playable.mesh, path, play);
-    }
-    const double start = plays ? 0.7 : 0;
-    for (std::size_t i = 0; i < outputs.size() && !written.cancelled; ++i) {
+    if (std::any_of(outputs.begin(), outputs.end(),
+                    [](const Output& out) { return out.kind == OutputKind::glb || out.kind == OutputKind::html; }))
+        glb = morph_glb(playable.mesh, playable.path, playable.play);
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
         const auto& [kind, path] = outputs[i];
-        const double from = start + (1 - start) * double(i) / double(outputs.size());
-        const Progress part = part_of(progress, from, start + (1 - start) * double(i + 1) / double(outputs.size()));
-        if (!keep_going(part, 0, "writing")) {
-            written.cancelled = true;
-            break;
-        }
-        if (kind == OutputKind::sequence) {
-            write_sequence(playable, path, part, written);
-            continue;
-        }
+        const double count = double(outputs.size());
+        const Progress part = part_of(progress, double(i) / count, double(i + 1) / count);
+        if (!keep_going(part, 0, "writing")) written.cancelled = true;
+        if (written.cancelled) break;
         if (kind == OutputKind::glb) write_whole(path, glb);
-        if (kind == OutputKind::html) write_whole(path, morph_html(glb, play));
-        if (kind == OutputKind::sheet && !write_sheet(playable, path, part)) {
-            written.cancelled = true;
-            break;
-        }
-        written.files.push_back(path);
+        if (kind == OutputKind::html) write_whole(path, morph_html(glb, playable.play));
+        if (kind == OutputKind::sheet) written.cancelled = !write_sheet(playable, path, part);
+        if (kind == OutputKind::plot) write_plot(playable, path, part, written);
+        if (kind == OutputKind::sequence)
+            write_sequence(playable, path, part, written);
+        else if (!written.cancelled)
+            written.files.push_back(path);
     }
     return written;
 }
@@ -150,11 +168,12 @@ Written write_outputs(const Playable& playable, const std::vector<Output>& outpu
 Written write_still(const Mesh& mesh, const std::string& caption, const std::vector<Tile>& before,
                     const std::vector<Output>& outputs, const Progress& progress) {
     for (const auto& [kind, path] : outputs)
-        if (kind == OutputKind::html || kind == OutputKind::sequence)
+        if (kind == OutputKind::html || kind == OutputKind::sequence || kind == OutputKind::plot)
             throw Error(
                 ErrorKind::argument,
-                fmt::format("-o {} plays a morph, but here is one shape; use .obj, .ply, .stl, .off, .glb or .png",
-                            path.string()));
+                fmt::format(
+                    "-o {} shows a whole morph, but here is one shape; use .obj, .ply, .stl, .off, .glb or .png",
+                    path.string()));
     Written written;
     for (const auto& [kind, path] : outputs) {
         if (kind == OutputKind::sheet) {

@@ -1,9 +1,10 @@
 // What -o can name, and how a morph is written there.
 #pragma once
 
+#include "meshtween/app/export.h"
 #include "meshtween/app/preview.h"
 #include "meshtween/core/progress.h"
-#include "meshtween/morph/curve.h"
+#include "meshtween/morph/path_quality.h"
 
 #include <filesystem>
 #include <string>
@@ -16,6 +17,7 @@ enum class OutputKind {
     html,     // x.html: a page that plays the morph
     sheet,    // x.png: a contact sheet
     sequence, // frame_####.obj (.ply .stl .off .glb .png): one numbered file a frame
+    plot,     // x.svg: volume, area, strain, flips and self-intersections along the path
     mesh,     // x.obj (.ply .stl .off): one mesh
 };
 
@@ -31,23 +33,31 @@ Output output(const std::string& name);
 // The file's name for one frame of a sequence: the run of #s becomes the number with leading zeros.
 std::filesystem::path numbered(const std::filesystem::path& pattern, int number);
 
+enum class FrameOrder {
+    there,    // both ends are frames
+    and_back, // the same frames once more, backwards, without the ends: a film that repeats shows none twice
+    around,   // for closed paths: the first frame follows the last
+};
+
 // A morph ready to be written.
 struct Playable {
-    Mesh mesh; // triangles and attributes; positions are those at u = 0
-    Morph morph;
-    CurveOptions curve; // how many meshes play it
-    int frames = 11;    // of a sequence, both ends included
-    std::string title;
+    Mesh mesh;  // triangles and attributes; positions are those at u = 0
+    Curve path; // from which every output takes its shapes
+    PlayOptions play;
+    int frames = 11; // of a sequence, from the first shape to the last
+    FrameOrder order = FrameOrder::there;
     std::vector<Tile> before; // tiles that a contact sheet shows before the in-betweens
+    PathQuality quality;      // for a plot; measured where it is empty and a plot is wanted
 };
 
 // What the writing found out, for the report.
 struct Written {
     std::vector<std::filesystem::path> files;
-    int nodes = 0;        // meshes of the curve; 0 where none was needed
-    double deviation = 0; // of the curve from the path, parts of the diagonal
     bool cancelled = false;
 };
+
+// The moments of a sequence's frames, 0..1.
+std::vector<double> frame_times(int frames, FrameOrder order);
 
 // Writes every output; each file appears whole or not at all. Cancelling leaves the files already finished.
 // Throws Error(argument) for a single mesh, which needs one u.

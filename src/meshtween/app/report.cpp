@@ -1,12 +1,11 @@
 #include "meshtween/app/report.h"
 
-#include "meshtween/core/parallel.h"
 #include "meshtween/geometry/measure.h"
-#include "meshtween/geometry/topology.h"
 
 #include <sys/resource.h>
 
-#include <cmath>
+#include <algorithm>
+#include <span>
 
 namespace meshtween {
 namespace {
@@ -85,24 +84,30 @@ Json describe(const Mesh& mesh) {
             {"findings", to_json(check(mesh))}};
 }
 
-Json path_report(const Mesh& mesh, const Morph& morph, const std::vector<double>& parameters) {
-    const Points from = morph.at(0), to = morph.at(1);
-    const std::vector<Edge> edges = topology(mesh.positions.rows(), mesh.triangles).edges;
-    const auto length = [&](const Points& p, const Edge& e) {
-        return (p.row(e.vertices[0]) - p.row(e.vertices[1])).norm();
-    };
+Json to_json(const PathQuality& quality, const Triangles& triangles, const std::function<Points(double u)>& at) {
+    const auto some = [](const auto& list) { return std::span(list).first(std::min<std::size_t>(20, list.size())); };
     Json rows = Json::array();
-    for (const double u : parameters) {
-        const Points shape = morph.at(u);
-        const double strain = parallel_sum(std::ssize(edges), 0.0, [&](std::ptrdiff_t i) {
-            const Edge& e = edges[static_cast<std::size_t>(i)];
-            const double want = (1 - u) * length(from, e) + u * length(to, e);
-            return want > 0 ? std::abs(length(shape, e) - want) / want : 0;
-        });
-        rows.push_back({{"u", u},
-                        {"volume", volume(shape, mesh.triangles)},
-                        {"area", surface_area(shape, mesh.triangles)},
-                        {"edge_strain_percent", edges.empty() ? 0 : 100 * strain / double(edges.size())}});
+    for (const FrameQuality& frame : quality.frames) {
+        Json row{{"u", frame.u},
+                 {"volume", frame.volume},
+                 {"volume_ratio", frame.volume_ratio},
+                 {"area", frame.area},
+                 {"area_ratio", frame.area_ratio},
+                 {"edge_strain_percent", 100 * frame.edge_strain_mean},
+                 {"edge_strain_max_percent", 100 * frame.edge_strain_max},
+                 {"flipped_faces", frame.flipped.size()},
+                 {"self_intersections", frame.self_intersections.size()}};
+        if (!frame.flipped.empty()) row["flipped"] = some(frame.flipped);
+        if (!frame.self_intersections.empty()) {
+            const Points shape = at(frame.u);
+            for (const std::array<int, 2>& pair : some(frame.self_intersections)) {
+                Point centre = Point::Zero();
+                for (const int t : pair)
+                    for (int k = 0; k < 3; ++k) centre += shape.row(triangles(t, k)) / 6;
+                row["cuts"].push_back({{"triangles", pair}, {"at", {centre[0], centre[1], centre[2]}}});
+            }
+        }
+        rows.push_back(std::move(row));
     }
     return rows;
 }

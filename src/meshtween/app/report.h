@@ -4,7 +4,7 @@
 #include "meshtween/fit/fit.h"
 #include "meshtween/fit/quality.h"
 #include "meshtween/geometry/check.h"
-#include "meshtween/morph/morph.h"
+#include "meshtween/morph/path_quality.h"
 
 #include <nlohmann/json.hpp>
 
@@ -22,9 +22,10 @@ Json to_json(const FitResult& result);
 Json to_json(const std::vector<Finding>& findings);
 Json describe(const Mesh& mesh); // counts, extent, area, volume and findings
 
-// Volume, area and edge strain of shapes along a path, a row for each u. Edge strain is the mean relative difference
-// between an edge's length and the blend of its lengths at both ends.
-Json path_report(const Mesh& mesh, const Morph& morph, const std::vector<double>& parameters);
+// A row a frame: volume and area, also against the straight line between the ends; edge strain, the relative difference
+// between an edge's length and the blend of its lengths at both ends, in percent; how many triangles are flipped and
+// which, how many pairs cut each other and where (twenty of each at most).
+Json to_json(const PathQuality& quality, const Triangles& triangles, const std::function<Points(double u)>& at);
 
 // The largest resident size of this process so far, in MiB.
 double peak_memory_mib();

@@ -270,6 +270,7 @@ std::string mesh_glb(const Mesh& mesh, const GltfMorph& morph, const std::string
     if (!morph.shapes.empty()) {
         part["weights"] = std::vector<double>(morph.shapes.size(), 0);
         part["extras"] = {{"targetNames", morph.names}, {"parameters", morph.parameters}};
+        if (!morph.knots.empty()) part["extras"]["knots"] = morph.knots;
     }
     const std::array<double, 4> base =
         mesh.colors.rows() > 0 ? std::array{1.0, 1.0, 1.0, 1.0} : std::array{0.70, 0.625, 0.555, 1.0}; // clay

@@ -16,6 +16,7 @@ struct GltfMorph {
     std::vector<double> parameters; // K + 1: where on the path the base and the shapes lie; for players, in the extras
     std::vector<float> times;       // T seconds, ascending from 0
     std::vector<float> weights;     // T x K, a row a time
+    std::vector<int> knots = {};    // where a path of several pieces passes from one to the next; in the extras too
 };
 
 // Positions, normals, colours and UVs as one GLB. Vertex i of the file is vertex i of the mesh; a vertex with several

@@ -55,19 +55,31 @@ std::vector<double> lobatto_nodes(int count) {
 
 std::vector<double> Curve::weights(double u) const {
     std::vector<double> w(parameters.size(), 0);
+    std::size_t first = 0, last = w.size() - 1;
+    for (std::size_t p = 0; p + 1 < knots.size(); ++p) {
+        first = static_cast<std::size_t>(knots[p]), last = static_cast<std::size_t>(knots[p + 1]);
+        if (u <= parameters[last]) break;
+    }
     double sum = 0;
-    for (std::size_t k = 0; k < w.size(); ++k) {
+    for (std::size_t k = first; k <= last; ++k) {
         if (u == parameters[k]) {
             std::fill(w.begin(), w.end(), 0);
             w[k] = 1;
             return w;
         }
-        const bool end = k == 0 || k + 1 == w.size();
-        w[k] = (k % 2 ? -1 : 1) * (end ? 0.5 : 1.0) / (u - parameters[k]);
+        const bool end = k == first || k == last;
+        w[k] = ((k - first) % 2 ? -1 : 1) * (end ? 0.5 : 1.0) / (u - parameters[k]);
         sum += w[k];
     }
     for (double& weight : w) weight /= sum;
     return w;
+}
+
+std::vector<double> key_times(const Curve& curve) {
+    if (curve.knots.empty()) return {0, 1};
+    std::vector<double> times;
+    for (const int knot : curve.knots) times.push_back(curve.parameters[static_cast<std::size_t>(knot)]);
+    return times;
 }
 
 Points Curve::at(double u) const {
@@ -76,7 +88,8 @@ Points Curve::at(double u) const {
     parallel_ranges(result.rows(), 4096, [&](Eigen::Index begin, Eigen::Index end) {
         auto block = result.middleRows(begin, end - begin);
         block = w[0] * nodes[0].middleRows(begin, end - begin);
-        for (std::size_t k = 1; k < w.size(); ++k) block += w[k] * nodes[k].middleRows(begin, end - begin);
+        for (std::size_t k = 1; k < w.size(); ++k)
+            if (w[k] != 0) block += w[k] * nodes[k].middleRows(begin, end - begin);
     });
     return result;
 }

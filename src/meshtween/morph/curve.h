@@ -10,15 +10,20 @@ struct CurveOptions {
     int max_nodes = 33;      // Chebyshev-Lobatto nodes at most, 2 or more
 };
 
-// p(u) = sum_k weights(u)[k] nodes[k]: the polynomial through the path at Chebyshev-Lobatto nodes of [0, 1].
+// p(u) = sum_k weights(u)[k] nodes[k]: the polynomial through the path at Chebyshev-Lobatto nodes of [0, 1], or one
+// such polynomial after the other where the path has several pieces.
 struct Curve {
-    std::vector<double> parameters;              // K ascending nodes, the first 0, the last 1
-    std::vector<Points> nodes;                   // K meshes, the first and last the ends exactly
-    double deviation = 0;                        // the largest found between nodes, parts of the diagonal
-    bool cancelled = false;                      // the progress said so: the nodes are those of the last full step
-    std::vector<double> weights(double u) const; // K barycentric Lagrange weights, adding up to 1
+    std::vector<double> parameters; // K ascending nodes, the first 0, the last 1
+    std::vector<Points> nodes;      // K meshes, the first and last the ends exactly
+    std::vector<int> knots;         // the nodes where pieces begin and end, 0 and K - 1 among them; empty for one piece
+    double deviation = 0;           // the largest found between nodes, parts of the diagonal
+    bool cancelled = false;         // the progress said so: the nodes are those of the last full step
+    std::vector<double> weights(double u) const; // K barycentric Lagrange weights, adding up to 1, 0 in other pieces
     Points at(double u) const;
 };
+
+// Where pieces begin and end, from 0 to 1.
+std::vector<double> key_times(const Curve& curve);
 
 // K Chebyshev-Lobatto nodes of [0, 1], ascending: (1 - cos(k pi / (K - 1))) / 2.
 std::vector<double> lobatto_nodes(int count);

@@ -50,51 +50,111 @@ std::vector<double> checked_times(std::size_t segments, std::vector<double> time
 
 // Adds cubics without value at both ends, whose slopes there make up what the velocities lack.
 void correct_velocities(Curve& curve, const Points& lacks_first, const Points& lacks_last) {
-    for (std::size_t k = 0; k < curve.nodes.size(); ++k) {
+    for (std::size_t k = 1; k + 1 < curve.nodes.size(); ++k) {
         const double s = curve.parameters[k], r = 1 - s;
         curve.nodes[k] += s * r * r * lacks_first - s * s * r * lacks_last;
     }
 }
 
-} // namespace
+// A piece's own time: from 0 to 1, rising, with these slopes at its ends (at most 3, or it would turn back).
+struct Pace {
+    double first = 1, last = 1;
+    double operator()(double t) const {
+        const double r = 1 - t;
+        return t * t * (3 - 2 * t) + first * t * r * r - last * t * t * r;
+    }
+};
 
-Points KeyPath::at(double t) const {
-    const auto next = std::upper_bound(times.begin() + 1, times.end() - 1, t);
-    const auto k = static_cast<std::size_t>(next - times.begin()) - 1;
-    return segments[k].at(std::clamp((t - times[k]) / (times[k + 1] - times[k]), 0.0, 1.0));
+// The same shapes at another pace; more nodes where that takes them.
+Curve paced(const Curve& piece, const Pace& pace, const CurveOptions& options) {
+    if (pace.first == 1 && pace.last == 1) return piece;
+    Morph moved;
+    moved.at = [&](double t) { return piece.at(std::clamp(pace(t), 0.0, 1.0)); };
+    Curve result = curve(moved, options);
+    result.deviation = std::max(result.deviation, piece.deviation);
+    return result;
 }
+
+// What part of their mean speed two motions keep where one follows the other: all where they point the same way, none
+// where they part by more than 30 degrees. A change of direction at full speed would have to cut the corner, and
+// straight lines across large turns squash what turns.
+double kept_speed(const Points& before, const Points& after) {
+    const double lengths = before.norm() * after.norm();
+    return lengths > 0 ? std::max(0.0, 1 - 8 * (1 - before.cwiseProduct(after).sum() / lengths)) : 1;
+}
+
+// Makes one velocity of the two at every key between pieces, and where a closed path begins and ends: pieces slow down
+// or hurry to one speed, and what then still differs in direction is made up for by cubics.
+void join_velocities(std::vector<Curve>& pieces, const std::vector<double>& times, const KeyOptions& options) {
+    const std::size_t count = pieces.size();
+    const auto duration = [&](std::size_t i) { return times[i + 1] - times[i]; };
+    std::vector<Pace> pace(count);
+    std::vector<Points> wanted(count); // at the key that piece k begins with, by the time of the whole
+    for (std::size_t k = options.closed ? 0 : 1; k < count; ++k) {
+        const std::size_t i = (k + count - 1) % count; // the piece before
+        const Points before = end_velocity(pieces[i], true) / duration(i);
+        const Points after = end_velocity(pieces[k], false) / duration(k);
+        const double share = duration(k) / (duration(i) + duration(k)); // the shorter piece decides more
+        const double speed = kept_speed(before, after) * (share * before.norm() + (1 - share) * after.norm());
+        const auto slope = [&](double own) { return own > 0 ? std::min(speed / own, 2.5) : 1; };
+        pace[i].last = slope(before.norm());
+        pace[k].first = slope(after.norm());
+        wanted[k] = share * pace[i].last * before + (1 - share) * pace[k].first * after;
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+        pieces[k] = with_nodes(paced(pieces[k], pace[k], options.curve), 5);
+        const auto lacks = [&](std::size_t key, bool last) -> Points {
+            if (wanted[key].rows() == 0) return Points::Zero(pieces[k].nodes.front().rows(), 3);
+            return wanted[key] * duration(k) - end_velocity(pieces[k], last);
+        };
+        const Points first = lacks(k, false), last = k + 1 < count || options.closed ? lacks((k + 1) % count, true)
+                                                                                     : Points::Zero(first.rows(), 3);
+        correct_velocities(pieces[k], first, last);
+    }
+}
+
+Curve chained(std::vector<Curve> pieces, const std::vector<double>& times) {
+    if (pieces.size() == 1) return std::move(pieces[0]);
+    Curve chain;
+    chain.knots = {0};
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+        Curve& piece = pieces[k];
+        for (std::size_t i = k == 0 ? 0 : 1; i < piece.nodes.size(); ++i) {
+            const bool key = i + 1 == piece.nodes.size(); // exactly what the caller gave
+            chain.parameters.push_back(key ? times[k + 1] : times[k] + piece.parameters[i] * (times[k + 1] - times[k]));
+            chain.nodes.push_back(std::move(piece.nodes[i]));
+        }
+        chain.knots.push_back(static_cast<int>(chain.nodes.size()) - 1);
+        chain.deviation = std::max(chain.deviation, piece.deviation);
+    }
+    return chain;
+}
+
+} // namespace
 
 KeyPath key_path(const Mesh& mesh, const std::vector<Points>& shapes, const KeyOptions& options,
                  const Progress& progress) {
     if (shapes.size() < 2) throw Error(ErrorKind::argument, "a path through keys needs at least two shapes");
     const std::size_t count = shapes.size() - (options.closed ? 0 : 1);
-    KeyPath path{checked_times(count, options.times), {}};
-    std::vector<Points> first, last; // velocities by the time of the whole
+    const std::vector<double> times = checked_times(count, options.times);
+    KeyPath path;
+    std::vector<Curve> pieces;
     for (std::size_t k = 0; k < count; ++k) {
         Mesh from = mesh;
         from.positions = shapes[k];
         const Progress part = part_of(progress, static_cast<double>(k) / static_cast<double>(count),
                                       static_cast<double>(k + 1) / static_cast<double>(count));
-        const Morph between = morph(from, shapes[(k + 1) % shapes.size()], options.morph, part_of(part, 0, 0.5));
-        Curve segment = curve(between, options.curve, part_of(part, 0.5, 1));
-        if (segment.cancelled) throw Error(ErrorKind::computation, "cancelled before the path was whole");
-        path.segments.push_back(with_nodes(segment, 5));
-        const double duration = path.times[k + 1] - path.times[k];
-        first.push_back(end_velocity(path.segments.back(), false) / duration);
-        last.push_back(end_velocity(path.segments.back(), true) / duration);
+        Morph between = morph(from, shapes[(k + 1) % shapes.size()], options.morph, part_of(part, 0, 0.3));
+        if (options.timing) between = retimed(between, *options.timing);
+        pieces.push_back(curve(between, options.curve, part_of(part, 0.3, 1)));
+        if (pieces.back().cancelled) {
+            path.curve.cancelled = true;
+            return path;
+        }
+        if (between.report && between.report().sweeps >= path.report.sweeps) path.report = between.report();
     }
-    for (std::size_t k = 0; k < count; ++k) {
-        const auto duration = [&](std::size_t i) { return path.times[i + 1] - path.times[i]; };
-        // What the joint between segments i and j wants, less what segment k has there; none at open ends.
-        const auto lacks = [&](std::size_t i, std::size_t j, const Points& have) -> Points {
-            const double a = duration(j) / (duration(i) + duration(j)); // the shorter segment decides more
-            return (a * last[i] + (1 - a) * first[j] - have) * duration(k);
-        };
-        const Points none = Points::Zero(mesh.positions.rows(), 3);
-        const bool joined_before = k > 0 || options.closed, joined_after = k + 1 < count || options.closed;
-        correct_velocities(path.segments[k], joined_before ? lacks((k + count - 1) % count, k, first[k]) : none,
-                           joined_after ? lacks(k, (k + 1) % count, last[k]) : none);
-    }
+    if (count > 1) join_velocities(pieces, times, options);
+    path.curve = chained(std::move(pieces), times);
     return path;
 }
 

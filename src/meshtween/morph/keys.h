@@ -2,25 +2,29 @@
 #pragma once
 
 #include "meshtween/morph/curve.h"
+#include "meshtween/morph/timing.h"
+
+#include <optional>
 
 namespace meshtween {
 
-struct KeyPath {
-    std::vector<double> times;   // m + 1, ascending, the first 0, the last 1
-    std::vector<Curve> segments; // m
-    Points at(double t) const;   // t in 0..1
-};
-
 struct KeyOptions {
     MorphOptions morph;
-    CurveOptions curve;
-    std::vector<double> times; // one a shape, ascending from 0 to 1; empty for equal steps
-    bool closed = false;       // the last shape goes on to the first: one more segment, and one more time
+    CurveOptions curve;                 // of each piece; with several pieces max_nodes counts as 5 at least
+    std::vector<double> times;          // one a shape, ascending from 0 to 1; empty for equal steps
+    bool closed = false;                // the last shape goes on to the first: one more piece, and one more time
+    std::optional<RegionTiming> timing; // regions with times of their own, within each piece
 };
 
-// A path through shapes of one mesh, at(times[k]) being shapes[k]. Between neighbours it is the method's own path with
-// a cubic correction that makes the velocity at each key the mean of what the segments on both sides want, weighted by
-// their length in time as in Catmull and Rom's splines. Throws Error(argument) for fewer than two shapes or bad times.
+struct KeyPath {
+    Curve curve;        // a piece from key to key; cancelled where the progress said so: then it has no nodes
+    SolveReport report; // of the most laborious solve
+};
+
+// A path through shapes of one mesh, curve.at(times[k]) being shapes[k], with continuous velocity. Between neighbours
+// it is the method's own path; near a key pieces slow down or hurry to a common speed, and stop there where they part
+// in direction by 30 degrees or more. What still differs is made up for by cubics. Throws Error(argument) for fewer
+// than two shapes or bad times.
 KeyPath key_path(const Mesh& mesh, const std::vector<Points>& shapes, const KeyOptions& options = {},
                  const Progress& progress = {});
 

@@ -31,13 +31,24 @@ std::vector<char> turned_over(const Points& end, const Points& shape, const Tria
     return flags;
 }
 
-void measure_edges(FrameQuality& frame, const std::vector<Edge>& edges, const Points& from, const Points& to,
-                   const Points& shape) {
+// The shapes on both sides of a frame, keys of the path.
+struct Ends {
+    Points from, to;
+    double volumes[2], areas[2];
+
+    Ends(Points first, Points last, const Triangles& triangles)
+        : from(std::move(first)), to(std::move(last)), volumes{volume(from, triangles), volume(to, triangles)},
+          areas{surface_area(from, triangles), surface_area(to, triangles)} {}
+};
+
+// `s` is where between the ends, 0..1.
+void measure_edges(FrameQuality& frame, const std::vector<Edge>& edges, const Ends& ends, const Points& shape,
+                   double s) {
     double sum = 0;
     for (const Edge& edge : edges) {
         const auto [i, j] = edge.vertices;
         const double want =
-            (1 - frame.u) * (from.row(i) - from.row(j)).norm() + frame.u * (to.row(i) - to.row(j)).norm();
+            (1 - s) * (ends.from.row(i) - ends.from.row(j)).norm() + s * (ends.to.row(i) - ends.to.row(j)).norm();
         const double strain = want > 0 ? std::abs((shape.row(i) - shape.row(j)).norm() - want) / want : 0;
         sum += strain;
         frame.edge_strain_max = std::max(frame.edge_strain_max, strain);
@@ -45,36 +56,49 @@ void measure_edges(FrameQuality& frame, const std::vector<Edge>& edges, const Po
     frame.edge_strain_mean = edges.empty() ? 0 : sum / static_cast<double>(edges.size());
 }
 
+FrameQuality measured(const Points& shape, const Ends& ends, const Triangles& triangles, const Topology& top, double s,
+                      bool cuts) {
+    const auto ratio = [&](double have, const double(&want)[2]) {
+        const double line = (1 - s) * want[0] + s * want[1];
+        return line != 0 ? have / line : 1;
+    };
+    FrameQuality frame;
+    frame.volume = volume(shape, triangles);
+    frame.area = surface_area(shape, triangles);
+    frame.volume_ratio = ratio(frame.volume, ends.volumes);
+    frame.area_ratio = ratio(frame.area, ends.areas);
+    measure_edges(frame, top.edges, ends, shape, s);
+    const std::vector<char> a = turned_over(ends.from, shape, triangles, top.vertex_triangles);
+    const std::vector<char> b = turned_over(ends.to, shape, triangles, top.vertex_triangles);
+    for (std::size_t t = 0; t < a.size(); ++t)
+        if (a[t] && b[t]) frame.flipped.push_back(static_cast<int>(t));
+    if (cuts) frame.self_intersections = self_intersections(shape, triangles);
+    return frame;
+}
+
 } // namespace
 
 PathQuality path_quality(const Triangles& triangles, const std::function<Points(double u)>& at,
                          const PathQualityOptions& options, const Progress& progress) {
     if (options.frames < 2) throw Error(ErrorKind::argument, "the quality of a path needs at least 2 frames: its ends");
-    const Points from = at(0), to = at(1);
-    const Topology top = topology(from.rows(), triangles);
-    const double volumes[2] = {volume(from, triangles), volume(to, triangles)};
-    const double areas[2] = {surface_area(from, triangles), surface_area(to, triangles)};
-    const auto ratio = [](double have, double want) { return want != 0 ? have / want : 1; };
+    if (options.keys.size() < 2) throw Error(ErrorKind::argument, "the quality of a path needs at least 2 keys");
+    const std::size_t pieces = options.keys.size() - 1;
+    const Topology top = topology(at(options.keys.front()).rows(), triangles);
     PathQuality result;
-    for (int k = 0; k < options.frames; ++k) {
-        FrameQuality frame;
-        frame.u = static_cast<double>(k) / (options.frames - 1);
-        if (!keep_going(progress, frame.u, "measuring the path")) {
-            result.cancelled = true;
-            break;
+    for (std::size_t p = 0; p < pieces; ++p) {
+        const Ends ends(at(options.keys[p]), at(options.keys[p + 1]), triangles);
+        for (int k = p == 0 ? 0 : 1; k < options.frames; ++k) {
+            const double s = static_cast<double>(k) / (options.frames - 1);
+            if (!keep_going(progress, (static_cast<double>(p) + s) / static_cast<double>(pieces),
+                            "measuring the path")) {
+                result.cancelled = true;
+                return result;
+            }
+            const double u = options.keys[p] + s * (options.keys[p + 1] - options.keys[p]);
+            const Points shape = k == 0 ? ends.from : k + 1 == options.frames ? ends.to : at(u);
+            result.frames.push_back(measured(shape, ends, triangles, top, s, options.self_intersections));
+            result.frames.back().u = u;
         }
-        const Points shape = k == 0 ? from : k + 1 == options.frames ? to : at(frame.u);
-        frame.volume = volume(shape, triangles);
-        frame.area = surface_area(shape, triangles);
-        frame.volume_ratio = ratio(frame.volume, (1 - frame.u) * volumes[0] + frame.u * volumes[1]);
-        frame.area_ratio = ratio(frame.area, (1 - frame.u) * areas[0] + frame.u * areas[1]);
-        measure_edges(frame, top.edges, from, to, shape);
-        const std::vector<char> a = turned_over(from, shape, triangles, top.vertex_triangles);
-        const std::vector<char> b = turned_over(to, shape, triangles, top.vertex_triangles);
-        for (std::size_t t = 0; t < a.size(); ++t)
-            if (a[t] && b[t]) frame.flipped.push_back(static_cast<int>(t));
-        if (options.self_intersections) frame.self_intersections = self_intersections(shape, triangles);
-        result.frames.push_back(std::move(frame));
     }
     return result;
 }

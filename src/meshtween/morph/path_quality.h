@@ -25,7 +25,8 @@ struct PathQuality {
 };
 
 struct PathQualityOptions {
-    int frames = 11;                // 2 or more, evenly from 0 to 1
+    int frames = 11;                // 2 or more, evenly from key to key
+    std::vector<double> keys{0, 1}; // ascending: what is measured against ends is measured against the keys around
     bool self_intersections = true; // the longest part
 };
 

@@ -13,11 +13,23 @@
 namespace meshtween {
 
 Ease ease_named(std::string_view name) {
-    if (name == "linear") return Ease::linear;
-    if (name == "in") return Ease::in;
-    if (name == "out") return Ease::out;
-    if (name == "in-out") return Ease::in_out;
+    for (const Ease kind : {Ease::linear, Ease::in, Ease::out, Ease::in_out})
+        if (name_of(kind) == name) return kind;
     throw Error(ErrorKind::argument, fmt::format("no ease is called \"{}\"; there are linear, in, out, in-out", name));
+}
+
+std::string_view name_of(Ease kind) {
+    switch (kind) {
+    case Ease::linear:
+        return "linear";
+    case Ease::in:
+        return "in";
+    case Ease::out:
+        return "out";
+    case Ease::in_out:
+        return "in-out";
+    }
+    return "";
 }
 
 double ease(Ease kind, double t) {

@@ -13,6 +13,7 @@ enum class Ease { linear, in, out, in_out };
 
 // "linear", "in", "out", "in-out"; throws Error(argument) naming those that exist.
 Ease ease_named(std::string_view name);
+std::string_view name_of(Ease kind);
 
 // Takes 0..1 to 0..1, the ends to themselves, never falling: slow at the start (in), at the end (out) or at both.
 double ease(Ease kind, double t);
