@@ -3,9 +3,12 @@
 #include "meshtween/core/error.h"
 #include "meshtween/fit/markers.h"
 #include "meshtween/fit/quality.h"
+#include "meshtween/io/mesh_io.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <map>
 
 using namespace meshtween;
@@ -56,6 +59,50 @@ void add_fit_flags(CLI::App& verb, FitFlags& flags) {
         ->capture_default_str();
 }
 
+void add_fit_files(CLI::App& verb, FitFlags& flags) {
+    verb.add_option("--map", flags.map,
+                    "Write CSV of vertex,triangle,a,b,c,distance: the target's triangle and barycentric point for each "
+                    "vertex");
+    verb.add_option("--weights", flags.weights,
+                    "Write how far each vertex can be trusted: CSV, or a .ply, .obj, .off or .glb of the fitted mesh "
+                    "coloured by it");
+}
+
+void check_fit_files(const FitFlags& flags) {
+    for (const auto& [option, name] : {std::pair("--map", &flags.map), std::pair("--weights", &flags.weights)}) {
+        if (name->empty()) continue;
+        const std::filesystem::path folder = std::filesystem::path(*name).parent_path();
+        if (!folder.empty() && !std::filesystem::is_directory(folder))
+            throw Error(ErrorKind::file,
+                        fmt::format("{} {}: there is no folder {}; create it first", option, *name, folder.string()));
+        if (std::filesystem::is_directory(*name))
+            throw Error(ErrorKind::file, fmt::format("{} {} is a folder; name a file in it", option, *name));
+    }
+}
+
+void write_fit_files(const Fitted& fitted, const FitFlags& flags, Console& console, Json& report) {
+    const auto tell = [&](const std::string& file) {
+        report["outputs"].push_back(file);
+        console.note("wrote " + file);
+    };
+    if (!flags.map.empty()) {
+        write_map(fitted.map, flags.map);
+        tell(flags.map);
+    }
+    if (!flags.weights.empty()) {
+        const std::string extension = std::filesystem::path(flags.weights).extension().string();
+        const auto& known = mesh_extensions();
+        if (std::find(known.begin(), known.end(), extension) != known.end()) {
+            Mesh coloured = fitted.mesh;
+            coloured.colors = trust_colors(fitted.map);
+            write_mesh(coloured, flags.weights);
+        } else {
+            write_weights(fitted.map, flags.weights);
+        }
+        tell(flags.weights);
+    }
+}
+
 Fitted run_fit(const Mesh& source, const Mesh& target, const MarkerPairs& markers, const FitFlags& flags,
                std::uint32_t seed, const Progress& progress, Console& console) {
     const auto start = std::chrono::steady_clock::now();
@@ -66,15 +113,18 @@ Fitted run_fit(const Mesh& source, const Mesh& target, const MarkerPairs& marker
                                 "surface, which does with any number",
                                 markers.pairs.size() == 1 ? "is" : "are", markers.pairs.size()));
     options.warp.kernel = flags.kernel == "linear" ? Kernel::linear : Kernel::thin_plate;
-    const FitResult result =
-        fit(source, target, place_markers(markers.pairs, source), options, part_of(progress, 0, 0.85));
+    const std::vector<Marker> placed = place_markers(markers.pairs, source);
+    const FitResult result = fit(source, target, placed, options, part_of(progress, 0, 0.8));
     stop_if_interrupted();
     const double seconds = seconds_since(start);
     console.warn("", result.notes);
 
-    Fitted fitted{source, to_json(result)};
+    Fitted fitted{source, {}, to_json(result)};
     fitted.mesh.positions = result.positions;
     fitted.report["seconds"] = seconds;
+    keep_going(progress, 0.8, "finding places");
+    fitted.map = correspondence(fitted.mesh, target);
+    fitted.report.update(fit_places(source, fitted.mesh, target, result, fitted.map, placed));
     keep_going(progress, 0.9, "measuring");
     const Quality quality = measure(source, fitted.mesh, target, {}, markers.pairs, seed);
     fitted.report["quality"] = to_json(quality);

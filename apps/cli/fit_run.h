@@ -3,6 +3,7 @@
 
 #include "inputs.h"
 
+#include "meshtween/fit/correspondence.h"
 #include "meshtween/fit/fit.h"
 
 #include <cstdint>
@@ -11,13 +12,19 @@
 struct FitFlags {
     meshtween::FitOptions options;
     std::string kernel = "thin-plate";
+    std::string map, weights; // files to write, or empty
 };
 void add_fit_flags(CLI::App& verb, FitFlags& flags);
+// Options that tell of one fit and its files; throws Error where a folder for them is missing.
+void add_fit_files(CLI::App& verb, FitFlags& flags);
+void check_fit_files(const FitFlags& flags);
 
 struct Fitted {
     meshtween::Mesh mesh; // the source's mesh on the target's surface
+    meshtween::Correspondence map;
     meshtween::Json report;
 };
+void write_fit_files(const Fitted& fitted, const FitFlags& flags, Console& console, meshtween::Json& report);
 
 // `seed` is that of the points with which distances are measured. Throws Error(argument) for the paper's fit with
 // fewer than 3 markers, and as fit().

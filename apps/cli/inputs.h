@@ -45,4 +45,5 @@ void add_morph(CLI::App& app, const Common& common);
 void add_rotate(CLI::App& app, const Common& common);
 void add_sample(CLI::App& app, const Common& common);
 void add_studio(CLI::App& app, const Common& common);
+void add_transfer(CLI::App& app, const Common& common);
 void add_tween(CLI::App& app, const Common& common);

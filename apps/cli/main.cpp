@@ -28,8 +28,8 @@ int main(int argc, char** argv) {
     app.add_flag("--quiet", common.quiet, "Say nothing but warnings and errors");
     app.parse_complete_callback([&] { meshtween::set_threads(common.threads); });
 
-    for (const auto add :
-         {add_morph, add_fit, add_tween, add_blend, add_rotate, add_measure, add_check, add_sample, add_studio})
+    for (const auto add : {add_morph, add_fit, add_tween, add_blend, add_rotate, add_measure, add_check, add_sample,
+                           add_studio, add_transfer})
         add(app, common);
 
     catch_interrupts();

@@ -27,11 +27,13 @@ void add_fit(CLI::App& app, const Common& common) {
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     verb->add_option("--report", a->report, "Write what was found out as JSON");
     add_fit_flags(*verb, a->fit);
+    add_fit_files(*verb, a->fit);
     verb->callback([a, &common] {
         const auto start = std::chrono::steady_clock::now();
         Console console(common.quiet);
         Json report = new_report("fit");
         const auto outputs = load_outputs(a->outputs);
+        check_fit_files(a->fit);
         const Mesh source = load_mesh(a->source, console), target = load_mesh(a->target, console);
         report["source"] = describe(source), report["target"] = describe(target);
         const MarkerPairs markers = load_markers(a->markers, source, target, console);
@@ -47,6 +49,7 @@ void add_fit(CLI::App& app, const Common& common) {
             report["outputs"].push_back(file.string());
             console.note("wrote " + file.string());
         }
+        write_fit_files(fitted, a->fit, console, report);
         finish_report(report, a->report, start);
     });
 }

@@ -27,6 +27,7 @@ Points side(const MarkerPairs& markers, bool source) {
 // Source to target: one fit.
 void morph_two(const Arguments& a, std::uint32_t seed, Console& console, Json& report) {
     const auto outputs = load_outputs(a.outputs);
+    check_fit_files(a.fit);
     const Mesh source = load_mesh(a.source, console), target = load_mesh(a.target, console);
     report["source"] = describe(source), report["target"] = describe(target);
     const MarkerPairs markers = load_markers(a.markers, source, target, console);
@@ -43,6 +44,7 @@ void morph_two(const Arguments& a, std::uint32_t seed, Console& console, Json& r
                 a.source + " to " + a.target,
                 !a.report.empty()},
                a.path, part_of(progress, 0.6, 1), console, report);
+    write_fit_files(fitted, a.fit, console, report);
 }
 
 // One template on both shapes (the paper's Fig. 12), then from one fit to the other.
@@ -94,6 +96,8 @@ void add_morph(CLI::App& app, const Common& common) {
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     verb->add_option("--report", a->report, "Write what was found out as JSON");
     add_fit_flags(*verb, a->fit);
+    add_fit_files(*verb, a->fit);
+    for (const char* of_one_fit : {"--map", "--weights"}) with_template->excludes(verb->get_option(of_one_fit));
     add_path_flags(*verb, a->path);
     verb->callback([a, &common] {
         const auto start = std::chrono::steady_clock::now();

@@ -2,7 +2,10 @@
 #include "support/program.h"
 
 #include "meshtween/geometry/measure.h"
+#include "meshtween/geometry/shapes.h"
+#include "meshtween/io/markers.h"
 #include "meshtween/io/mesh_io.h"
+#include "meshtween/io/table.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -27,12 +30,26 @@ protected:
         return ran;
     }
     void sample(const std::string& name) const { run({"sample", name, "-o", folder_.path().string()}); }
+    // A ball, a finer egg of its shape, and a dozen markers between them: quickly fitted.
+    void egg() const {
+        const auto longer = [](meshtween::Mesh mesh) {
+            mesh.positions.col(1) *= 1.3;
+            return mesh;
+        };
+        const meshtween::Mesh ball = meshtween::sphere(3), egg = longer(meshtween::sphere(4));
+        meshtween::write_mesh(ball, folder_ / "ball.ply");
+        meshtween::write_mesh(egg, folder_ / "egg.ply");
+        std::vector<meshtween::MarkerPair> markers;
+        for (int i = 0; i < 12; ++i)
+            markers.push_back({"m" + std::to_string(i), ball.positions.row(i), egg.positions.row(i)});
+        meshtween::write_marker_pairs(markers, folder_ / "egg.csv");
+    }
     TemporaryFolder folder_;
 };
 
 TEST_F(Verbs, VersionAndHelpGoToStandardOutput) {
     EXPECT_FALSE(run({"--version"}).out.empty());
-    for (const char* verb : {"morph", "fit", "tween", "blend", "rotate", "measure", "check", "sample"}) {
+    for (const char* verb : {"morph", "fit", "tween", "blend", "rotate", "measure", "check", "sample", "transfer"}) {
         const Ran ran = run({verb, "--help"});
         EXPECT_NE(ran.out.find("Example"), std::string::npos) << verb;
     }
@@ -70,16 +87,61 @@ TEST_F(Verbs, FitThenMeasureAgreesWithTheReport) {
 }
 
 TEST_F(Verbs, MarkersExactEndsOnTheMarkersAndSeedsReachTheMeasures) {
-    sample("build");
+    egg();
     const auto fit_with_seed = [&](const char* seed) {
-        run({"fit", file("build_source.ply"), file("build_target.ply"), "--markers", file("build_markers.csv"),
-             "--markers-exact", "--seed", seed, "-o", file("fitted.ply"), "--report", file("r.json")});
+        run({"fit", file("ball.ply"), file("egg.ply"), "--markers", file("egg.csv"), "--markers-exact", "--seed", seed,
+             "-o", file("fitted.ply"), "--report", file("r.json")});
         return read_json(folder_ / "r.json")["fit"]["quality"];
     };
     const Json one = fit_with_seed("1"), two = fit_with_seed("2");
     EXPECT_LT(one["marker_error"]["max"], 1e-7); // percent
     EXPECT_NE(one["fitted_to_target"]["mean"], two["fitted_to_target"]["mean"]);
     EXPECT_EQ(one["eq7"], two["eq7"]);
+}
+
+TEST_F(Verbs, TransferCarriesWhatTheFitMatched) {
+    egg();
+    meshtween::Mesh target = meshtween::read_mesh(folder_ / "egg.ply");
+    target.colors = meshtween::Colors::Ones(target.positions.rows(), 4);
+    const double low = target.positions.col(1).minCoeff(), high = target.positions.col(1).maxCoeff();
+    target.colors.col(0) = ((target.positions.col(1).array() - low) / (high - low)).cast<float>();
+    meshtween::write_mesh(target, folder_ / "coloured.ply");
+    run({"fit", file("ball.ply"), file("coloured.ply"), "--markers", file("egg.csv"), "-o", file("fitted.ply"), "--map",
+         file("map.csv"), "--weights", file("weights.csv"), "--report", file("r.json")});
+    run({"fit", file("ball.ply"), file("coloured.ply"), "-o", file("guess.ply"), "--weights", file("trust.ply")});
+    EXPECT_GT(meshtween::read_mesh(folder_ / "trust.ply").colors.rows(), 0);
+
+    const auto source = meshtween::read_mesh(folder_ / "ball.ply");
+    run({"transfer", file("fitted.ply"), file("coloured.ply"), "--template", file("ball.ply"), "-o",
+         file("template.ply")});
+    const auto coloured = meshtween::read_mesh(folder_ / "template.ply");
+    EXPECT_EQ(coloured.positions, source.positions);
+    const meshtween::Points fitted = meshtween::read_mesh(folder_ / "fitted.ply").positions;
+    for (Eigen::Index i = 0; i < fitted.rows(); ++i)
+        EXPECT_NEAR(coloured.colors(i, 0), (fitted(i, 1) - low) / (high - low), 0.02);
+
+    run({"transfer", file("fitted.ply"), file("coloured.ply"), "--to", "target", "--values", file("weights.csv"),
+         "--values-out", file("target_weights.csv")});
+    const auto given = meshtween::read_table(folder_ / "weights.csv"),
+               got = meshtween::read_table(folder_ / "target_weights.csv");
+    EXPECT_EQ(got.names, given.names);
+    EXPECT_EQ(got.values.rows(), target.positions.rows());
+    EXPECT_LE(got.values.col(0).maxCoeff(), given.values.col(0).maxCoeff());
+
+    std::ofstream(folder_ / "points.csv") << "name,x,y,z\ncrown," << target.positions(0, 0) << ','
+                                          << target.positions(0, 1) << ',' << target.positions(0, 2) << '\n';
+    run({"transfer", file("fitted.ply"), file("coloured.ply"), "--points", file("points.csv"), "--points-out",
+         file("there.csv")});
+    std::ifstream there(folder_ / "there.csv");
+    std::string header, row;
+    std::getline(there, header), std::getline(there, row);
+    EXPECT_EQ(row.substr(0, 6), "crown,");
+
+    const Json fit = read_json(folder_ / "r.json")["fit"];
+    EXPECT_TRUE(fit["guards"].contains("flips_mended"));
+    EXPECT_EQ(fit["guards"]["flips_left"], fit["quality"]["flipped_faces"]);
+    EXPECT_EQ(fit["next_markers"].size(), 5u);
+    for (const Json& place : fit["worst"]) EXPECT_LT(place["vertex"], source.positions.rows());
 }
 
 TEST_F(Verbs, TweenIsExactAtBothEnds) {

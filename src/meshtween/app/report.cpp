@@ -1,5 +1,6 @@
 #include "meshtween/app/report.h"
 
+#include "meshtween/fit/settle.h"
 #include "meshtween/geometry/measure.h"
 
 #include <sys/resource.h>
@@ -20,6 +21,35 @@ std::string_view name_of(FitEnd end) {
         return "cancelled";
     }
     return "";
+}
+
+constexpr std::size_t told_at_most = 20; // entries of a list
+
+Json told(const Point& p) {
+    return {p[0], p[1], p[2]};
+}
+
+Json told_vertices(const std::vector<int>& vertices, const Mesh& mesh) {
+    Json list = Json::array();
+    for (std::size_t i = 0; i < std::min(vertices.size(), told_at_most); ++i)
+        list.push_back({{"vertex", vertices[i]}, {"at", told(mesh.positions.row(vertices[i]))}});
+    return list;
+}
+
+Json told_triangles(const std::vector<int>& triangles, const Mesh& mesh) {
+    Json list = Json::array();
+    for (std::size_t i = 0; i < std::min(triangles.size(), told_at_most); ++i) {
+        const SurfacePoint centre{triangles[i], Point::Constant(1.0 / 3)};
+        list.push_back({{"triangle", triangles[i]}, {"at", told(position(mesh.positions, mesh.triangles, centre))}});
+    }
+    return list;
+}
+
+// Lengths in percent, as elsewhere in a report.
+double told_value(const WorstPlace& place) {
+    const bool length = place.fault == PlaceFault::off_target || place.fault == PlaceFault::uncovered ||
+                        place.fault == PlaceFault::beyond;
+    return length ? 100 * place.value : place.value;
 }
 
 } // namespace
@@ -82,6 +112,36 @@ Json describe(const Mesh& mesh) {
             {"area", surface_area(mesh.positions, mesh.triangles)},
             {"volume", volume(mesh.positions, mesh.triangles)},
             {"findings", to_json(check(mesh))}};
+}
+
+Json fit_places(const Mesh& source, const Mesh& fitted, const Mesh& target, const FitResult& result,
+                const Correspondence& map, std::span<const Marker> markers) {
+    const std::vector<WorstPlace> faults = place_faults(source, fitted, map);
+    Json worst = Json::array(), next = Json::array();
+    for (const WorstPlace& place : worst_places(fitted, faults))
+        worst.push_back({{"vertex", place.vertex},
+                         {"fault", name_of(place.fault)},
+                         {"value", told_value(place)},
+                         {"badness", place.badness},
+                         {"source", told(source.positions.row(place.vertex))},
+                         {"fitted", told(fitted.positions.row(place.vertex))}});
+    for (const MarkerSuggestion& s : suggest_markers(source, fitted, target, map, faults, markers))
+        next.push_back({{"source", told(source.positions.row(s.place.vertex))},
+                        {"target", told(s.target)},
+                        {"vertex", s.place.vertex},
+                        {"why", s.place.badness < 0.2 ? "no marker is near" : name_of(s.place.fault)},
+                        {"badness", s.place.badness}});
+    const std::vector<int> flipped =
+        flipped_triangles(fitted.positions, fitted.triangles, fit_target(target.positions, target.triangles));
+    return {{"guards",
+             {{"refused_steps", result.refused_steps},
+              {"refused", told_vertices(result.refused, fitted)},
+              {"flips_mended", result.mended.size()},
+              {"mended", told_triangles(result.mended, fitted)},
+              {"flips_left", flipped.size()},
+              {"flipped", told_triangles(flipped, fitted)}}},
+            {"worst", worst},
+            {"next_markers", next}};
 }
 
 Json to_json(const PathQuality& quality, const Triangles& triangles, const std::function<Points(double u)>& at) {

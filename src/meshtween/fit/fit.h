@@ -38,6 +38,8 @@ struct FitResult {
     double error = 0;            // E of Eq. 7 at the end, in squared parts of the diagonal, summed over vertices
     std::vector<double> history; // sqrt(E / n) of each round, parts of the diagonal, before its projection
     long refused_steps = 0;      // vertex moves shortened because they would have turned a triangle over
+    std::vector<int> refused;    // surface: the vertices of those moves, ascending
+    std::vector<int> mended; // surface: triangles that looked into the target on the way and no longer do, ascending
     std::vector<double> weights; // n, 0..1: how far to trust each vertex; 0 where nothing on the target answers to it
     std::vector<std::string> notes; // for people: what was unusual
 };

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <iterator>
 
 namespace meshtween {
 namespace {
@@ -38,7 +39,7 @@ Goals goals(const Shell& shell, const Points& positions, const FitTarget& target
 }
 
 // The steps shortened until no triangle that looked along the surface's normals at its corners looks against them.
-Points guarded(const Shell& shell, const Points& from, const Goals& to, long& refused) {
+Points guarded(const Shell& shell, const Points& from, const Goals& to, std::vector<int>& refused) {
     const Triangles& triangles = shell.triangles;
     std::vector<double> share(idx(from.rows()), 1.0);
     Points now = to.positions;
@@ -65,7 +66,9 @@ Points guarded(const Shell& shell, const Points& from, const Goals& to, long& re
         }
         if (!any) break;
     }
-    for (const double s : share) refused += s < 1;
+    refused.clear();
+    for (std::size_t i = 0; i < share.size(); ++i)
+        if (share[i] < 1) refused.push_back(static_cast<int>(i));
     return now;
 }
 
@@ -113,18 +116,21 @@ std::vector<int> flipped_triangles(const Points& positions, const Triangles& tri
 
 Settled settle(const Shell& shell, const Points& positions, const FitTarget& target, const SettleOptions& options) {
     Settled result;
-    result.positions = guarded(shell, positions, goals(shell, positions, target, options), result.refused_steps);
+    result.positions = guarded(shell, positions, goals(shell, positions, target, options), result.refused);
     result.flipped = flipped_triangles(result.positions, shell.triangles, target);
+    const std::vector<int> before = result.flipped;
     Points trial = result.positions;
     for (int round = 0; round < options.mending_rounds && !result.flipped.empty(); ++round) {
         trial = relaxed_around(shell, trial, flipped_triangles(trial, shell.triangles, target), 1);
-        long ignored = 0;
+        std::vector<int> ignored;
         trial = guarded(shell, trial, goals(shell, trial, target, options), ignored);
         std::vector<int> left = flipped_triangles(trial, shell.triangles, target);
         if (left.size() >= result.flipped.size()) continue;
         result.flipped = std::move(left);
         result.positions = trial;
     }
+    std::set_difference(before.begin(), before.end(), result.flipped.begin(), result.flipped.end(),
+                        std::back_inserter(result.mended));
     return result;
 }
 

@@ -17,7 +17,8 @@ struct SettleOptions {
 
 struct Settled {
     Points positions;
-    long refused_steps = 0;   // vertices that went only a part of the way, or none of it
+    std::vector<int> refused; // vertices that went only a part of the way, or none of it, ascending
+    std::vector<int> mended;  // triangles that looked into the surface and no longer do, ascending
     std::vector<int> flipped; // triangles that still look into the surface, ascending
 };
 

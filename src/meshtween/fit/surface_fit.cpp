@@ -170,7 +170,8 @@ FitResult surface_fit(const Mesh& source, const Mesh& target_mesh, std::span<con
     if (going) {
         Settled settled = settle(shells.shells[0], x, target);
         x = std::move(settled.positions);
-        result.refused_steps = settled.refused_steps;
+        result.refused_steps = std::ssize(settled.refused);
+        result.refused = std::move(settled.refused), result.mended = std::move(settled.mended);
         if (!settled.flipped.empty())
             result.notes.push_back(fmt::format("{} triangles look into the target's surface, the first of them {}",
                                                settled.flipped.size(), settled.flipped.front()));

@@ -34,6 +34,12 @@ MarkerPairs read_marker_pairs(const std::filesystem::path& source_path, const st
 
 void write_marker_pairs(const std::vector<MarkerPair>& pairs, const std::filesystem::path& path); // our CSV
 
+struct Landmark {
+    std::string name;
+    Point position{0, 0, 0};
+};
+void write_landmarks(const std::vector<Landmark>& landmarks, const std::filesystem::path& path); // CSV of name,x,y,z
+
 // Rows x,y,z under an optional header, n x 3: a known correspondence, a row a vertex.
 Points read_points(const std::filesystem::path& path);
 void write_points(const Points& points, const std::filesystem::path& path);

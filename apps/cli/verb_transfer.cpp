@@ -1,0 +1,155 @@
+#include "inputs.h"
+
+#include "meshtween/core/error.h"
+#include "meshtween/fit/correspondence.h"
+#include "meshtween/fit/transfer.h"
+#include "meshtween/geometry/measure.h"
+#include "meshtween/io/table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+using namespace meshtween;
+
+namespace {
+
+struct Arguments {
+    std::string fitted, target, to = "template", template_mesh;
+    std::vector<std::string> outputs;
+    std::string values, values_out, points, points_out;
+};
+
+// The two sides, each as its file is named.
+struct Sides {
+    TwoShapes giver, receiver;
+    std::string giver_file, receiver_file;
+};
+
+Sides load_sides(const Arguments& a, Console& console) {
+    TwoShapes fitted, target;
+    fitted.fitted = load_mesh(a.fitted, console);
+    target.fitted = target.rest = load_mesh(a.target, console);
+    fitted.rest = a.template_mesh.empty() ? fitted.fitted : load_mesh(a.template_mesh, console);
+    if (fitted.rest.positions.rows() != fitted.fitted.positions.rows() ||
+        fitted.rest.triangles.rows() != fitted.fitted.triangles.rows() ||
+        fitted.rest.triangles != fitted.fitted.triangles)
+        throw Error(ErrorKind::file, fmt::format("{} and {} are not of one connectivity; give the template that was "
+                                                 "fitted",
+                                                 a.template_mesh, a.fitted));
+    // Attributes live on either file of the template.
+    if (fitted.fitted.colors.rows() == 0) fitted.fitted.colors = fitted.rest.colors;
+    if (fitted.fitted.texcoords.rows() == 0) {
+        fitted.fitted.texcoords = fitted.rest.texcoords;
+        fitted.fitted.texcoord_triangles = fitted.rest.texcoord_triangles;
+    }
+    if (a.to == "template") return {std::move(target), std::move(fitted), a.target, a.fitted};
+    return {std::move(fitted), std::move(target), a.fitted, a.target};
+}
+
+void warn_if_apart(const Sides& sides, const std::vector<SurfacePoint>& places, Console& console) {
+    constexpr double apart = 0.01; // of the diagonal: fits end well under it
+    const Mesh &giver = sides.giver.fitted, &receiver = sides.receiver.fitted;
+    std::vector<double> distances;
+    for (std::size_t i = 0; i < places.size(); ++i)
+        distances.push_back((position(giver.positions, giver.triangles, places[i]) -
+                             receiver.positions.row(static_cast<Eigen::Index>(i)))
+                                .norm());
+    const auto middle = distances.begin() + std::ssize(distances) / 2;
+    std::nth_element(distances.begin(), middle, distances.end());
+    if (*middle > apart * diagonal(giver.positions))
+        console.warn(
+            fmt::format("half of the vertices of {} lie more than {:.2g} % of the diagonal from {}: is the one "
+                        "fitted to the other?",
+                        sides.receiver_file, 100 * *middle / diagonal(giver.positions), sides.giver_file));
+}
+
+void transfer_values(const Arguments& a, const Sides& sides, const std::vector<SurfacePoint>& places,
+                     Console& console) {
+    Table table = read_table(a.values);
+    if (table.values.rows() != sides.giver.fitted.positions.rows())
+        throw Error(ErrorKind::file,
+                    fmt::format("{}: {} rows; it needs one for each of the {} vertices of {}", a.values,
+                                table.values.rows(), sides.giver.fitted.positions.rows(), sides.giver_file));
+    table.values = carried(table.values, sides.giver.fitted.triangles, places);
+    write_table(table, a.values_out);
+    console.note("wrote " + a.values_out);
+}
+
+void transfer_points(const Arguments& a, const Sides& sides, Console& console) {
+    const MarkerPairs given = read_marker_pairs(a.points, a.points, sides.giver.rest, sides.giver.rest);
+    Points points(std::ssize(given.pairs), 3);
+    for (std::size_t i = 0; i < given.pairs.size(); ++i)
+        points.row(static_cast<Eigen::Index>(i)) = given.pairs[i].source;
+    const Points moved = carried_points(points, sides.giver, sides.receiver);
+    std::vector<Landmark> landmarks;
+    for (std::size_t i = 0; i < given.pairs.size(); ++i)
+        landmarks.push_back({given.pairs[i].name, moved.row(static_cast<Eigen::Index>(i))});
+    write_landmarks(landmarks, a.points_out);
+    console.note("wrote " + a.points_out);
+}
+
+void transfer_mesh(const std::vector<Output>& outputs, const Sides& sides, const std::vector<SurfacePoint>& places,
+                   Console& console) {
+    const Mesh& giver = sides.giver.fitted;
+    if (giver.colors.rows() == 0 && giver.texcoords.rows() == 0)
+        throw Error(ErrorKind::file,
+                    fmt::format("{} has neither colours nor texture coordinates to carry; leave -o out, or use --to",
+                                sides.giver_file));
+    Mesh result = with_attributes(sides.receiver.fitted, giver, places);
+    result.positions = sides.receiver.rest.positions;
+    for (const auto& file : write_still(result, "what was carried over", {}, outputs).files)
+        console.note("wrote " + file.string());
+}
+
+void transfer(const Arguments& a, Console& console) {
+    if (a.outputs.empty() && a.values.empty() && a.points.empty())
+        throw Error(ErrorKind::argument, "transfer needs something to carry: -o for colours and texture coordinates, "
+                                         "--values with --values-out, --points with --points-out");
+    const auto outputs = load_outputs(a.outputs);
+    const Sides sides = load_sides(a, console);
+    const Progress progress = console.progress();
+    keep_going(progress, 0.2, "finding places");
+    const std::vector<SurfacePoint> places = places_on(sides.receiver.fitted, sides.giver.fitted);
+    stop_if_interrupted();
+    warn_if_apart(sides, places, console);
+    keep_going(progress, 0.6, "carrying over");
+    if (!outputs.empty()) transfer_mesh(outputs, sides, places, console);
+    if (!a.values.empty()) transfer_values(a, sides, places, console);
+    if (!a.points.empty()) transfer_points(a, sides, console);
+}
+
+} // namespace
+
+void add_transfer(CLI::App& app, const Common& common) {
+    auto* verb = app.add_subcommand("transfer", "Carry colours, texture coordinates, values and points between a "
+                                                "fitted mesh and its target");
+    verb->footer("Example: meshtween transfer fitted.ply scan.ply --template template.ply -o coloured.ply\n"
+                 "Example: meshtween transfer fitted.ply scan.ply --to target --values weights.csv --values-out "
+                 "scan_weights.csv");
+    const auto a = std::make_shared<Arguments>();
+    verb->add_option("FITTED", a->fitted, "The template on the target's surface, as fit wrote it")->required();
+    verb->add_option("TARGET", a->target, "The mesh that it was fitted to")->required();
+    verb->add_option("--to", a->to, "Which way: to the template (what the target has) or to the target")
+        ->check(CLI::IsMember({"template", "target"}))
+        ->capture_default_str();
+    verb->add_option("--template", a->template_mesh,
+                     "The template before its fit: -o is written in its shape, and points are read or written on it");
+    verb->add_option("-o,--output", a->outputs,
+                     "The receiving mesh with the other's colours and texture coordinates: x.ply, .obj, .glb, .off, "
+                     ".png; may be given several times")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    auto* values = verb->add_option("--values", a->values,
+                                    "CSV of numbers, a row for each vertex of the giving mesh (skin weights, a map)");
+    values->needs(verb->add_option("--values-out", a->values_out, "The same for the receiving mesh")->needs(values));
+    auto* points =
+        verb->add_option("--points", a->points, "Points on the giving mesh: any file of markers of one side");
+    points->needs(
+        verb->add_option("--points-out", a->points_out, "CSV of name,x,y,z on the receiving mesh")->needs(points));
+    verb->callback([a, &common] {
+        Console console(common.quiet);
+        transfer(*a, console);
+    });
+}

@@ -1,0 +1,144 @@
+#include "meshtween/fit/correspondence.h"
+
+#include "meshtween/core/parallel.h"
+#include "meshtween/geometry/measure.h"
+#include "meshtween/geometry/topology.h"
+#include "meshtween/io/output.h"
+#include "meshtween/io/text_out.h"
+#include "meshtween/search/closest_point.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meshtween {
+namespace {
+
+std::size_t idx(std::ptrdiff_t i) {
+    return static_cast<std::size_t>(i);
+}
+
+constexpr double near_enough = 0.005; // of the diagonal: distances well under this cost no trust
+
+std::vector<ClosestPoint> closest_alike(const Mesh& mesh, const ClosestPointIndex& surface, double diagonal) {
+    constexpr double further = 1.5, slack = 0.001; // of the distance to the closest point; of the diagonal
+    const Points normals = vertex_normals(mesh.positions, mesh.triangles);
+    std::vector<ClosestPoint> all(idx(mesh.positions.rows()));
+    parallel_for(
+        mesh.positions.rows(),
+        [&](std::ptrdiff_t i) {
+            const Point at = mesh.positions.row(i);
+            ClosestPoint& best = all[idx(i)];
+            best = surface.closest(at);
+            if (surface.normals().row(best.where.triangle).dot(normals.row(i)) >= 0) return;
+            const double reach = further * std::sqrt(best.squared_distance) + slack * diagonal;
+            const ClosestPoint alike = surface.closest(at, {normals.row(i), 0.0}, reach, best.where.triangle);
+            if (alike.found()) best = alike;
+        },
+        256);
+    return all;
+}
+
+// A place on an edge or a corner of the border, to within rounding.
+bool at_border(const SurfacePoint& p, const Triangles& triangles, const std::vector<char>& on_boundary) {
+    constexpr double nil = 1e-9;
+    bool inside = true, all = true;
+    for (int k = 0; k < 3; ++k) {
+        if (p.barycentric[k] <= nil)
+            inside = false;
+        else
+            all = all && on_boundary[idx(triangles(p.triangle, k))] != 0;
+    }
+    return !inside && all;
+}
+
+Points vertices_and_centres(const Mesh& mesh) {
+    Points all(mesh.positions.rows() + mesh.triangles.rows(), 3);
+    all.topRows(mesh.positions.rows()) = mesh.positions;
+    for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t)
+        all.row(mesh.positions.rows() + t) =
+            position(mesh.positions, mesh.triangles, {static_cast<int>(t), Point::Constant(1.0 / 3)});
+    return all;
+}
+
+// What lies beyond the fitted mesh's own border is no part of it and does not count.
+std::vector<double> uncovered(const Mesh& fitted, const Topology& topology, const Mesh& target) {
+    const double scale = diagonal(target.positions);
+    const std::vector<ClosestPoint> back = ClosestPointIndex(fitted).closest(vertices_and_centres(target));
+    std::vector<double> furthest(idx(fitted.positions.rows()), 0.0);
+    for (const ClosestPoint& c : back) {
+        if (at_border(c.where, fitted.triangles, topology.on_boundary)) continue;
+        int corner = 0;
+        c.where.barycentric.maxCoeff(&corner);
+        double& here = furthest[idx(fitted.triangles(c.where.triangle, corner))];
+        here = std::max(here, std::sqrt(c.squared_distance) / scale);
+    }
+    return furthest;
+}
+
+double falling(double distance) {
+    return std::exp(-(distance / near_enough) * (distance / near_enough));
+}
+
+} // namespace
+
+std::vector<SurfacePoint> places_on(const Mesh& mesh, const Mesh& surface) {
+    std::vector<SurfacePoint> places;
+    for (const ClosestPoint& c : closest_alike(mesh, ClosestPointIndex(surface), diagonal(surface.positions)))
+        places.push_back(c.where);
+    return places;
+}
+
+Correspondence correspondence(const Mesh& fitted, const Mesh& target) {
+    const ClosestPointIndex surface(target);
+    const double scale = diagonal(target.positions);
+    const Points normals = vertex_normals(fitted.positions, fitted.triangles);
+    const Topology own = topology(fitted.positions.rows(), fitted.triangles);
+    const Topology other = topology(target.positions.rows(), target.triangles);
+    Correspondence map;
+    map.uncovered = uncovered(fitted, own, target);
+    const std::vector<ClosestPoint> closest = closest_alike(fitted, surface, scale);
+    for (std::size_t i = 0; i < closest.size(); ++i) {
+        const SurfacePoint& place = closest[i].where;
+        map.places.push_back(place);
+        map.distance.push_back(std::sqrt(closest[i].squared_distance) / scale);
+        map.agreement.push_back(normals.row(static_cast<Eigen::Index>(i)).dot(surface.normals().row(place.triangle)));
+        map.border.push_back(own.on_boundary[i] == 0 && at_border(place, target.triangles, other.on_boundary) ? 1 : 0);
+        map.trust.push_back(map.border[i] != 0 ? 0
+                                               : std::max(0.0, map.agreement[i]) * falling(map.distance[i]) *
+                                                     falling(map.uncovered[i]));
+    }
+    return map;
+}
+
+void write_map(const Correspondence& map, const std::filesystem::path& path) {
+    write_whole(path, [&](std::ostream& stream) {
+        TextOut out(stream);
+        out.put("vertex,triangle,a,b,c,distance\n");
+        for (std::size_t i = 0; i < map.places.size(); ++i) {
+            const SurfacePoint& p = map.places[i];
+            out.put("{},{},{},{},{},{:.6g}\n", i, p.triangle, p.barycentric[0], p.barycentric[1], p.barycentric[2],
+                    map.distance[i]);
+        }
+    });
+}
+
+void write_weights(const Correspondence& map, const std::filesystem::path& path) {
+    write_whole(path, [&](std::ostream& stream) {
+        TextOut out(stream);
+        out.put("vertex,trust,distance,agreement,border,uncovered\n");
+        for (std::size_t i = 0; i < map.places.size(); ++i)
+            out.put("{},{:.6g},{:.6g},{:.6g},{},{:.6g}\n", i, map.trust[i], map.distance[i], map.agreement[i],
+                    int(map.border[i]), map.uncovered[i]);
+    });
+}
+
+Colors trust_colors(const Correspondence& map) {
+    Colors colors(std::ssize(map.trust), 4);
+    for (std::size_t i = 0; i < map.trust.size(); ++i) {
+        const auto t = static_cast<float>(map.trust[i]);
+        colors.row(static_cast<Eigen::Index>(i)) << std::min(1.0F, 2 - 2 * t), std::min(1.0F, 2 * t), 0.1F, 1;
+    }
+    return colors;
+}
+
+} // namespace meshtween
