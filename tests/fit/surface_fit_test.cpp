@@ -110,6 +110,58 @@ TEST(Shell, FramesOfATurnedShapeAreTheTurn) {
     for (const auto& frame : local_frames(s, 2 * spin(m.positions), 3, true)) EXPECT_LT((frame - turned).norm(), 1e-9);
 }
 
+TEST(Shell, CalmedFramesKeepGreatTurnsAndForgetSmallOnes) {
+    const auto frame = [](double angle, double scale) {
+        return Eigen::Matrix3d(scale *
+                               Eigen::AngleAxisd(angle, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix());
+    };
+    const std::vector<Eigen::Matrix3d> frames{frame(0, 1.2), frame(0.15, 1.2), frame(0.3, 1.2), frame(1, 1.2)};
+    const auto calm = calmed(frames, 0.3);
+    EXPECT_LT((calm[0] - Eigen::Matrix3d::Identity()).norm(), 1e-12);
+    EXPECT_LT((calm[1] - frame(0.075, std::sqrt(1.2))).norm(), 1e-12); // half of the way in the middle
+    EXPECT_LT((calm[2] - frames[2]).norm(), 1e-12);
+    EXPECT_LT((calm[3] - frames[3]).norm(), 1e-12);
+    EXPECT_EQ(calmed(frames, 0)[1], frames[1]);
+}
+
+// A flat sheet of n x n squares, 1 x 1, in the plane z = 0.
+Mesh sheet(int n) {
+    Mesh m;
+    m.positions.resize((n + 1) * (n + 1), 3);
+    m.triangles.resize(2 * n * n, 3);
+    for (int i = 0; i <= n; ++i)
+        for (int j = 0; j <= n; ++j) m.positions.row(i * (n + 1) + j) << 1.0 * i / n, 1.0 * j / n, 0;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            const int a = i * (n + 1) + j, b = a + n + 1;
+            m.triangles.row(2 * (i * n + j)) << a, b, a + 1;
+            m.triangles.row(2 * (i * n + j) + 1) << b, b + 1, a + 1;
+        }
+    return m;
+}
+
+TEST(SurfaceFit, ABorderNearTheTargetsMeetsIt) {
+    const Mesh m = sheet(12);
+    Mesh target = sheet(17);
+    target.positions.col(0) = 1.06 * target.positions.col(0).array() - 0.03;
+    const std::vector<Marker> markers{{"a", {130, {1, 0, 0}}, m.positions.row(m.triangles(130, 0))},
+                                      {"b", {150, {1, 0, 0}}, m.positions.row(m.triangles(150, 0))},
+                                      {"c", {180, {1, 0, 0}}, m.positions.row(m.triangles(180, 0))}};
+    const FitResult r = surface_fit(m, target, markers);
+    for (int j = 0; j <= 12; ++j) {
+        EXPECT_NEAR(r.positions(j, 0), -0.03, 1e-3);
+        EXPECT_NEAR(r.positions(12 * 13 + j, 0), 1.03, 1e-3);
+    }
+}
+
+TEST(SurfaceFit, ABorderFarFromTheTargetsIsNotDrawnToIt) {
+    const Mesh m = sheet(12);
+    Mesh target = sheet(30);
+    target.positions = (2 * target.positions).rowwise() - Point(0.5, 0.5, 0);
+    const FitResult r = surface_fit(m, target, vertex_markers(m, m.positions, 7));
+    EXPECT_LT(worst(r.positions, m.positions), 1e-3);
+}
+
 TEST(SurfaceFit, AMeshOnItselfStays) {
     const Mesh m = block();
     const FitResult r = surface_fit(m, m, vertex_markers(m, m.positions, 8));

@@ -47,6 +47,43 @@ Pull pull(const FitTarget& target, const ClosestPoint& closest, const Point& nor
     return result;
 }
 
+// Boundary edges as triangles without area, each in the direction of its triangle.
+Triangles border_edges(const Triangles& triangles, const Topology& topology) {
+    std::vector<std::array<int, 2>> edges;
+    for (const Edge& edge : topology.edges) {
+        if (edge.count != 1) continue;
+        const auto [a, b] = edge.vertices;
+        const auto f = triangles.row(edge.triangles[0]);
+        bool along = false;
+        for (int k = 0; k < 3; ++k) along |= f[k] == a && f[(k + 1) % 3] == b;
+        edges.push_back(along ? std::array{a, b} : std::array{b, a});
+    }
+    Triangles result(static_cast<Eigen::Index>(edges.size()), 3);
+    for (std::size_t e = 0; e < edges.size(); ++e)
+        result.row(static_cast<Eigen::Index>(e)) << edges[e][0], edges[e][1], edges[e][1];
+    return result;
+}
+
+// Where the mesh's border runs along the target's, it is drawn onto it and slides along it. The pull fades with the
+// distance, so that a mesh that ends elsewhere than the target does is not stretched to its border.
+void add_border_pulls(const Shell& shell, const Points& positions, const FitTarget& target, const RelaxWeights& weights,
+                      std::vector<Matrix3d>& blocks, Points& right) {
+    constexpr double near = 0.04; // diagonals: where the pull has faded to nothing
+    const Points directions = border_directions(positions, shell.triangles, shell.topology);
+    parallel_for(positions.rows(), [&](std::ptrdiff_t i) {
+        if (!shell.topology.on_boundary[idx(i)]) return;
+        const ClosestPoint closest = closest_on_border(target, positions.row(i), directions.row(i));
+        if (!closest.found()) return;
+        const auto edge = target.border.row(closest.where.triangle);
+        const Point along = (target.positions.row(edge[1]) - target.positions.row(edge[0])).normalized();
+        const double trust = std::max(0.0, 1 - closest.squared_distance / (near * near));
+        const Matrix3d block = weights.border * weights.closeness * shell.area[idx(i)] * trust * trust *
+                               (Matrix3d::Identity() - (1 - weights.slide) * along.transpose() * along);
+        blocks[idx(i)] += block;
+        right.row(i) += closest.position * block;
+    });
+}
+
 SurfacePoint coarser_place(const ShellLevels& all, std::size_t finer, const SurfacePoint& place, const Point& query) {
     const Level& coarse = all.levels[finer + 1];
     const Topology& topology = all.shells[finer + 1].topology;
@@ -103,8 +140,26 @@ void add_pins(const Shell& shell, const std::vector<Pin>& pins, const std::vecto
 } // namespace
 
 FitTarget fit_target(const Points& positions, const Triangles& triangles) {
-    return {positions, triangles, vertex_normals(positions, triangles), topology(positions.rows(), triangles),
-            ClosestPointIndex(positions, triangles)};
+    FitTarget target{positions,
+                     triangles,
+                     vertex_normals(positions, triangles),
+                     topology(positions.rows(), triangles),
+                     ClosestPointIndex(positions, triangles),
+                     {},
+                     nullptr};
+    target.border = border_edges(triangles, target.topology);
+    if (target.border.rows() > 0)
+        target.border_index = std::make_shared<const ClosestPointIndex>(positions, target.border);
+    return target;
+}
+
+ClosestPoint closest_on_border(const FitTarget& target, const Point& point, const Point& direction) {
+    constexpr double least_cosine = 0.7; // borders at a right angle, or facing each other, are not the same
+    if (!target.border_index) return {};
+    const ClosestPoint closest = target.border_index->closest(point);
+    const auto edge = target.border.row(closest.where.triangle);
+    const Point along = (target.positions.row(edge[1]) - target.positions.row(edge[0])).normalized();
+    return along.dot(direction) < least_cosine ? ClosestPoint{} : closest;
 }
 
 ShellLevels shell_levels(const Points& rest, const Triangles& triangles, std::span<const Pin> pins,
@@ -135,6 +190,19 @@ ShellLevels shell_levels(const Points& rest, const Triangles& triangles, std::sp
     return all;
 }
 
+Points border_directions(const Points& positions, const Triangles& triangles, const Topology& topology) {
+    Points result = Points::Zero(positions.rows(), 3);
+    const Triangles border = border_edges(triangles, topology);
+    for (Eigen::Index e = 0; e < border.rows(); ++e) {
+        const Point along = positions.row(border(e, 1)) - positions.row(border(e, 0));
+        result.row(border(e, 0)) += along;
+        result.row(border(e, 1)) += along;
+    }
+    for (Eigen::Index i = 0; i < result.rows(); ++i)
+        if (result.row(i).norm() > 0) result.row(i).normalize();
+    return result;
+}
+
 bool on_border(const FitTarget& target, const SurfacePoint& p) {
     constexpr double touching = 1e-9;
     int inside = 0, corner = 0;
@@ -153,7 +221,8 @@ Relaxed relax(const ShellLevels& shells, std::size_t level, const Points& positi
     const Shell& shell = shells.shells[level];
     const auto n = positions.rows();
     Relaxed result{positions, std::vector<double>(idx(n), 0.0), 0};
-    const auto frames = local_frames(shell, positions, weights.smoothing, weights.with_scale);
+    const auto frames =
+        calmed(local_frames(shell, positions, weights.smoothing, weights.with_scale), weights.calm_turn);
     std::vector<BlockSystem> systems{level_system(shells, level, weights)};
     Points right =
         rest_force(shell, frames, std::pow(weights.length, 4), weights.membrane * weights.length * weights.length);
@@ -175,6 +244,7 @@ Relaxed relax(const ShellLevels& shells, std::size_t level, const Points& positi
                 result.trust[idx(i)] = p.trust;
             },
             256);
+        if (target.border_index) add_border_pulls(shell, positions, target, weights, systems[0].blocks, right);
     }
     for (std::size_t k = level + 1; k < shells.levels.size(); ++k) {
         systems.push_back(level_system(shells, k, weights));

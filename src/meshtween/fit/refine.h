@@ -8,6 +8,7 @@
 #include "meshtween/search/closest_point.h"
 #include "meshtween/solve/block_system.h"
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -20,8 +21,17 @@ struct FitTarget {
     Points normals; // a vertex, unit
     Topology topology;
     ClosestPointIndex index;
+    Triangles border;                                      // border edges (a, b, b), the surface to their left
+    std::shared_ptr<const ClosestPointIndex> border_index; // of them; none where the surface is closed
 };
 FitTarget fit_target(const Points& positions, const Triangles& triangles);
+
+// Unit directions of the border at its vertices, the surface to their left; zero elsewhere.
+Points border_directions(const Points& positions, const Triangles& triangles, const Topology& topology);
+
+// The closest point of the target's border where the border of the mesh at `point` runs along it: `direction` is the
+// mesh's border's, unit. Not found elsewhere.
+ClosestPoint closest_on_border(const FitTarget& target, const Point& point, const Point& direction);
 
 // True where a point lies on the target's border: what has its closest point there may have no counterpart.
 bool on_border(const FitTarget& target, const SurfacePoint& point);
@@ -49,8 +59,10 @@ struct RelaxWeights {
     double slide = 0.02;   // of pulls along the surface beside pulls onto it: 0 slides freely, 1 holds
     double pins = 100;     // of all pins together, beside the closeness of the whole surface
     double closeness = 1;  // 0 leaves the surface out: only the pins pull
+    double border = 4;     // of pulls of the mesh's border onto the target's, beside closeness
     double least_cosine = 0.5;
     double reach = 0.3;     // closest points further away are not asked
+    double calm_turn = 0;   // radians: frames that turn less are drawn towards none (calmed)
     int smoothing = 5;      // rounds, of the local frames
     bool with_scale = true; // local frames may grow and shrink
     int iterations = 20;    // of the solver, at most

@@ -24,9 +24,18 @@ struct Goals {
 Goals goals(const Shell& shell, const Points& positions, const FitTarget& target, const SettleOptions& options) {
     Goals result{positions, Points::Zero(positions.rows(), 3)};
     const Points normals = vertex_normals(positions, shell.triangles);
+    const Points directions = border_directions(positions, shell.triangles, shell.topology);
     parallel_for(
         positions.rows(),
         [&](std::ptrdiff_t i) {
+            if (shell.topology.on_boundary[idx(i)]) {
+                const ClosestPoint border = closest_on_border(target, positions.row(i), directions.row(i));
+                if (border.found() && border.squared_distance <= options.reach * options.reach) {
+                    result.positions.row(i) = border.position;
+                    result.normals.row(i) = normals.row(i);
+                    return;
+                }
+            }
             const Compatible compatible{normals.row(i), options.least_cosine};
             const ClosestPoint closest = target.index.closest(Point(positions.row(i)), compatible, options.reach);
             if (!closest.found()) return;

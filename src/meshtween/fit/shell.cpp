@@ -205,6 +205,21 @@ std::vector<Matrix3d> local_frames(const Shell& shell, const Points& positions, 
     return frames;
 }
 
+std::vector<Matrix3d> calmed(std::vector<Matrix3d> frames, double angle) {
+    if (angle <= 0) return frames;
+    parallel_for(static_cast<std::ptrdiff_t>(frames.size()), [&](std::ptrdiff_t i) {
+        Matrix3d& frame = frames[static_cast<std::size_t>(i)];
+        const double scale = std::cbrt(frame.determinant());
+        if (!(scale > 0)) return;
+        Eigen::AngleAxisd turn(Matrix3d(frame / scale));
+        if (turn.angle() >= angle) return;
+        const double t = turn.angle() / angle, share = t * t * (3 - 2 * t);
+        turn.angle() *= share;
+        frame = std::pow(scale, share) * turn.toRotationMatrix();
+    });
+    return frames;
+}
+
 Points rest_force(const Shell& shell, const std::vector<Matrix3d>& frames, double bending_weight,
                   double membrane_weight) {
     // Each vertex gathers from its own entries of the forms: E's matrix times the rest shape, entry by entry, with the

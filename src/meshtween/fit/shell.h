@@ -39,6 +39,10 @@ Shell shell(const Points& rest, const Triangles& triangles);
 // best one for the edges around it after `smoothing` rounds of averaging with its neighbours. n.
 std::vector<Eigen::Matrix3d> local_frames(const Shell& shell, const Points& positions, int smoothing, bool with_scale);
 
+// Frames that turn by less than `angle` (radians) drawn smoothly towards the identity, turn and scale alike: where
+// little turns, the shell then asks for a smooth displacement rather than for its own form, turned. n.
+std::vector<Eigen::Matrix3d> calmed(std::vector<Eigen::Matrix3d> frames, double angle);
+
 // The right side that goes with  bending_weight E_b + membrane_weight E_m,  where E_b asks each hinge to keep its rest
 // value turned by its frame and E_m asks each edge to. n x 3.
 Points rest_force(const Shell& shell, const std::vector<Eigen::Matrix3d>& frames, double bending_weight,

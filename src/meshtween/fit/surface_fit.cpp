@@ -22,6 +22,7 @@ namespace {
 
 constexpr double first_length = 0.2, last_length = 0.0015; // of the shell: features that it follows, in diagonals
 constexpr int rounds_a_level = 8;
+constexpr double calm_turn = 0.35;          // radians: between two faces or standing bodies all turn less
 constexpr int articulation_rounds = 40;     // with the markers alone, on the coarsest level
 constexpr double articulation_still = 1e-4; // stop where no vertex moves further, in diagonals
 
@@ -149,6 +150,7 @@ FitResult surface_fit(const Mesh& source, const Mesh& target_mesh, std::span<con
     RelaxWeights weights;
     weights.length = first_length;
     weights.membrane = 1e-3;
+    weights.calm_turn = calm_turn;
     weights.pins *= options.marker_weight;
     double done = 0, work = 0; // in vertices seen, for the progress
     for (const Level& level : shells.levels) work += static_cast<double>(level.positions.rows()) * rounds_a_level;
