@@ -1,10 +1,15 @@
-// Prints the table of docs/path.md: every method on shapes whose way is known, at u = 0.5.
+// Prints the table of docs/path.md: every method on shapes whose way is known, at u = 0.5. With a folder as argument it
+// also writes the page's plots there.
+#include "meshtween/app/path_plot.h"
 #include "meshtween/geometry/measure.h"
 #include "meshtween/geometry/shapes.h"
+#include "meshtween/io/output.h"
 #include "meshtween/morph/curve.h"
 #include "meshtween/morph/path_quality.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <numbers>
 #include <string>
 
@@ -32,10 +37,26 @@ std::vector<Case> cases() {
     return all;
 }
 
+// All methods along one case; the slow one is left to the table.
+void plot(const Case& c, const std::filesystem::path& folder) {
+    std::vector<PlottedPath> paths;
+    for (const MorphMethod method : morph_methods())
+        if (method != MorphMethod::dual_mesh)
+            paths.push_back(
+                {std::string(name_of(method)),
+                 path_quality(c.from.triangles, morph(c.from, c.to, {.method = method}).at, {.frames = 21})});
+    std::string name = "path-" + c.name + ".svg";
+    std::replace(name.begin(), name.end(), ' ', '-');
+    write_whole(folder / name, path_plot(paths));
+}
+
 } // namespace
 
-int main() {
+int main(int count, char** arguments) {
     const std::vector<Case> all = cases();
+    if (count > 1)
+        for (const Case& c : all)
+            if (c.name == "bend 180" || c.name == "twist 270") plot(c, arguments[1]);
     std::printf("| method |");
     for (const Case& c : all) std::printf(" %s |", c.name.c_str());
     std::printf("\n|---|");

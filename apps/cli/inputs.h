@@ -29,7 +29,6 @@ meshtween::MarkerPairs load_markers(const std::vector<std::string>& files, const
                                     const meshtween::Mesh& target, Console& console);
 std::vector<meshtween::Output> load_outputs(const std::vector<std::string>& names);
 
-
 // The report's first lines; and its last, with the file written where one is named.
 meshtween::Json new_report(const std::string& verb);
 void finish_report(meshtween::Json& report, const std::string& file, std::chrono::steady_clock::time_point start);

@@ -62,6 +62,7 @@ KeyOptions key_options(const PathWork& work, const PathFlags& flags) {
                                                          flags.targets, pieces, least));
         keys.curve.max_nodes = flags.targets / pieces + 1;
     }
+    if (!flags.no_repair) keys.repair = flags.repair;
     if (!flags.regions.empty()) keys.timing = read_regions(flags.regions, work.mesh, flags.region);
     return keys;
 }
@@ -91,13 +92,25 @@ void tell_curve(const Curve& curve, const PathFlags& flags, Console& console, Js
                                  flags.targets > 0 ? "; that is what --targets costs" : ""));
 }
 
-// One shape of a plain path needs no curve: one solve gives it.
+void tell_repair(const RepairReport& repair, Console& console, Json& row) {
+    row["repair"] = {
+        {"cuts_before", repair.cuts_before}, {"cuts_after", repair.cuts_after}, {"places_bent", repair.contacts},
+        {"places_left", repair.left},        {"moved", repair.moved},           {"shapes_tried", repair.trials}};
+    if (repair.contacts > 0)
+        console.note(fmt::format("repair: {} place{} bent by up to {:.2g} of the diagonal where the path cut itself",
+                                 repair.contacts, repair.contacts == 1 ? "" : "s", repair.moved));
+    if (repair.left > 0)
+        console.warn(fmt::format("the path cuts itself in {} place{} on the way; --report says where", repair.left,
+                                 repair.left == 1 ? "" : "s"));
+}
+
+// One shape of a plain path needs no curve: one solve gives it. Only the whole path tells what is to be repaired.
 void write_one_shape(const PathWork& work, const PathFlags& flags, const KeyOptions& keys, const Progress& progress,
                      Console& console, Json& row, Written& written) {
     const double u = flags.at.front();
     Mesh shape = work.mesh;
     SolveReport solve;
-    if (work.shapes.size() == 2 && !keys.closed) {
+    if (work.shapes.size() == 2 && !keys.closed && !keys.repair) {
         Morph path = morph(work.mesh, work.shapes[1], keys.morph, progress);
         stop_if_interrupted();
         if (keys.timing) path = retimed(path, *keys.timing);
@@ -107,6 +120,7 @@ void write_one_shape(const PathWork& work, const PathFlags& flags, const KeyOpti
         const KeyPath path = key_path(work.mesh, work.shapes, keys, progress);
         stop_if_interrupted();
         tell_curve(path.curve, flags, console, row);
+        tell_repair(path.repair, console, row);
         shape.positions = path.curve.at(u);
         solve = path.report;
     }
@@ -122,6 +136,7 @@ void write_whole_path(const PathWork& work, const PathFlags& flags, const KeyOpt
     stop_if_interrupted();
     tell_solve(path.report, console, row);
     tell_curve(path.curve, flags, console, row);
+    if (keys.repair) tell_repair(path.repair, console, row);
     playable.path = std::move(path.curve);
     const auto at = [&](double u) { return playable.path.at(u); };
     const bool plotted = std::any_of(work.outputs.begin(), work.outputs.end(),
@@ -166,6 +181,12 @@ void add_path_flags(CLI::App& verb, PathFlags& flags) {
         ->capture_default_str();
     verb.add_option("--targets", flags.targets, "Morph targets at most, for viewers that play few; tells what it costs")
         ->check(CLI::Range(1, 10000));
+    verb.add_flag("--no-repair", flags.no_repair,
+                  "Leave the path as it is where it cuts itself though its ends do not");
+    verb.add_option("--repair-reach", flags.repair.reach,
+                    "How far such a place may be bent out of the way, in parts of the diagonal")
+        ->check(number_between(1e-6, 1, "1e-6..1"))
+        ->capture_default_str();
     add_play_flags(verb, flags);
 }
 

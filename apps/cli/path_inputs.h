@@ -20,6 +20,8 @@ struct PathFlags {
     std::string regions;
     meshtween::RegionOptions region;
     std::vector<double> times; // of several shapes
+    bool no_repair = false;
+    meshtween::RepairOptions repair;
 };
 void add_method_flags(CLI::App& verb, PathFlags& flags); // the method and its constants alone
 void add_path_flags(CLI::App& verb, PathFlags& flags);

@@ -202,6 +202,8 @@ const std::vector<Row> rows = {
      {"b.obj", "3 vertices"}},
     {"RegionSpanNought", {}, tween_with({"--region-span", "0"}), 1, {"--region-span"}},
     {"RegionWidthNegative", {}, tween_with({"--region-width", "-1"}), 1, {"--region-width"}},
+    {"RepairReachNought", {}, tween_with({"--repair-reach", "0"}), 1, {"--repair-reach"}},
+    {"RepairReachNaN", {}, tween_with({"--repair-reach", "nan"}), 1, {"--repair-reach"}},
     {"BlendOfOne", {}, {"blend", "#/good.obj", "-o", "#/f.obj"}, 1, {"MESH"}},
     {"BlendWeightsOfAnotherNumber",
      {},

@@ -219,6 +219,36 @@ TEST_F(Verbs, RegionsMoveAtTheirTimes) {
     EXPECT_NEAR(half(high, 1), bar(high, 1), 0.05 * std::abs(bar(high, 1)));
 }
 
+TEST_F(Verbs, RepairBendsWhatCutsItselfUnlessToldNotTo) {
+    const auto two_boxes = [&](const std::string& name, double place) { // the second passes through the first
+        std::ofstream obj(folder_ / name);
+        for (const double shift : {0.0, place})
+            for (int i = 0; i < 8; ++i)
+                obj << "v " << (i & 1) * 4 + (shift != 0 ? 0.1 : 0) << ' ' << (i >> 1 & 1) + shift << ' '
+                    << (i >> 2 & 1) + (shift != 0 ? 0.6 : 0) << '\n';
+        for (const int b : {1, 9})
+            for (const auto& f :
+                 {std::array{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}})
+                obj << "f " << b + f[0] << ' ' << b + f[1] << ' ' << b + f[2] << ' ' << b + f[3] << '\n';
+    };
+    two_boxes("a.obj", -3), two_boxes("b.obj", 3);
+    const auto report_with = [&](const std::vector<std::string>& options) {
+        std::vector<std::string> all{"tween", file("a.obj"), file("b.obj"), "--method",    "linear",
+                                     "-o",    file("x.glb"), "--report",    file("r.json")};
+        all.insert(all.end(), options.begin(), options.end());
+        run(all);
+        const Json path = read_json(folder_ / "r.json")["path"];
+        int cuts = 0;
+        for (const Json& frame : path["shapes"]) cuts += frame["self_intersections"].get<int>();
+        return std::pair(path, cuts);
+    };
+    EXPECT_GT(report_with({"--no-repair"}).second, 0);
+    const auto [path, cuts] = report_with({});
+    EXPECT_EQ(cuts, 0);
+    EXPECT_GT(path["repair"]["cuts_before"], 0);
+    EXPECT_EQ(path["repair"]["places_bent"], 1);
+}
+
 TEST_F(Verbs, BlendIsAMeanAndACaricature) {
     sample("build");
     const std::string a = file("build_source.ply");

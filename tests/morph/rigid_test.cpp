@@ -1,6 +1,7 @@
 #include "meshtween/geometry/measure.h"
 #include "meshtween/morph/curve.h"
 #include "meshtween/morph/morph.h"
+#include "meshtween/morph/path_quality.h"
 #include "support/posed.h"
 
 #include <gtest/gtest.h>
@@ -39,10 +40,37 @@ TEST(Rigid, TwistsKeepLengthsAndVolume) {
     }
 }
 
+TEST(Rigid, ThickBarsTwistToo) { // 4 : 1 : 1, where half the twist would miss the lengths by 1.6 %
+    const Mesh bar = test::bar(32, 8);
+    for (const double angle : {180, 225, 270}) {
+        const PathQuality quality =
+            path_quality(bar.triangles, morph(bar, test::twisted(bar.positions, angle * test::degree)).at,
+                         {.frames = 5, .self_intersections = false});
+        for (const FrameQuality& frame : quality.frames) {
+            EXPECT_LT(frame.edge_strain_mean, 0.005) << angle << " at " << frame.u;
+            EXPECT_NEAR(frame.volume_ratio, 1, 0.005) << angle << " at " << frame.u;
+            EXPECT_TRUE(frame.flipped.empty()) << angle << " at " << frame.u;
+        }
+    }
+}
+
+TEST(Rigid, AMiddleOfMeanSize) { // a bar that twists and grows: lengths decide, not the mean of the volumes
+    const Mesh bar = test::bar(32, 8);
+    const Points to = 1.5 * test::twisted(bar.positions, 200 * test::degree);
+    const Points half = morph(bar, to).at(0.5);
+    EXPECT_NEAR(volume(half, bar.triangles) / volume(bar.positions, bar.triangles), std::pow(1.25, 3), 0.02);
+}
+
 TEST(Rigid, TwoWholeTurns) {
     const Mesh bar = test::bar(96, 4);
     const Points to = test::twisted(bar.positions, 720 * test::degree);
     EXPECT_LT(half_way(bar, to).edges, 0.02);
+    const Mesh thick = test::bar(48, 8);
+    const PathQuality quality =
+        path_quality(thick.triangles, morph(thick, test::twisted(thick.positions, 720 * test::degree)).at,
+                     {.frames = 3, .self_intersections = false});
+    EXPECT_LT(quality.frames[1].edge_strain_mean, 0.02);
+    EXPECT_TRUE(quality.frames[1].flipped.empty());
     const Points shape = morph(bar, to).at(0.5), wanted = test::twisted(bar.positions, 360 * test::degree);
     // Every section lies half-way round: both ends' corners are as far apart as in the bar of one turn.
     const double apart = (shape.row(0) - shape.row(shape.rows() - 1)).norm();
@@ -62,10 +90,12 @@ TEST(Rigid, ATurnedShapeStaysCongruent) {
 
 TEST(Rigid, ATurnedTargetGivesTheSameShapes) {
     const Mesh bar = test::bar(20, 3);
-    const Points to = test::shaken(test::bent(bar.positions, 2), 0.1);
-    const Points one = morph(bar, to).at(0.4);
-    const Points other = morph(bar, test::turned(to, 2.5, axis, {3, -9, 1})).at(0.4);
-    EXPECT_LT(test::edge_error(bar.triangles, one, one, other), 1e-6);
+    for (const Points& shape : {test::bent(bar.positions, 2), test::twisted(bar.positions, 4)}) {
+        const Points to = test::shaken(shape, 0.1);
+        const Points one = morph(bar, to).at(0.4);
+        const Points other = morph(bar, test::turned(to, 2.5, axis, {3, -9, 1})).at(0.4);
+        EXPECT_LT(test::edge_error(bar.triangles, one, one, other), 1e-6);
+    }
 }
 
 TEST(Rigid, BackwardsIsTheSamePath) {

@@ -94,6 +94,15 @@ Points Curve::at(double u) const {
     return result;
 }
 
+Curve resampled(const Curve& curve, int count) {
+    if (static_cast<int>(curve.nodes.size()) >= count) return curve;
+    Curve result = curve;
+    result.parameters = lobatto_nodes(count);
+    result.nodes.clear();
+    for (const double u : result.parameters) result.nodes.push_back(curve.at(u));
+    return result;
+}
+
 Curve curve(const Morph& morph, const CurveOptions& options, const Progress& progress) {
     if (!(options.tolerance > 0)) throw Error(ErrorKind::argument, "the curve's tolerance must be above 0");
     if (options.max_nodes < 2) throw Error(ErrorKind::argument, "a curve needs at least 2 nodes: its ends");

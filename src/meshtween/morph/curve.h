@@ -25,6 +25,9 @@ struct Curve {
 // Where pieces begin and end, from 0 to 1.
 std::vector<double> key_times(const Curve& curve);
 
+// The same polynomial through at least `count` nodes; a curve of one piece.
+Curve resampled(const Curve& curve, int count);
+
 // K Chebyshev-Lobatto nodes of [0, 1], ascending: (1 - cos(k pi / (K - 1))) / 2.
 std::vector<double> lobatto_nodes(int count);
 

@@ -10,6 +10,7 @@ namespace meshtween {
 FloatCurve to_float(const Curve& curve) {
     FloatCurve result;
     result.weights.parameters = curve.parameters;
+    result.weights.knots = curve.knots;
     result.weights.deviation = curve.deviation;
     for (const Points& node : curve.nodes) result.nodes.emplace_back(node.cast<float>());
     return result;
@@ -25,7 +26,15 @@ void frame_into(const FloatCurve& curve, double u, std::span<float> result) {
     const Eigen::Index size = curve.nodes.front().size();
     if (static_cast<Eigen::Index>(result.size()) != size)
         throw Error(ErrorKind::argument, fmt::format("a frame needs {} floats, not {}", size, result.size()));
-    const std::vector<double> weights = curve.weights.weights(u);
+    std::vector<float> weights;
+    std::vector<const float*> values; // of the nodes that take part: those of one piece
+    for (std::size_t k = 0; const double weight : curve.weights.weights(u)) {
+        if (weight != 0) {
+            weights.push_back(static_cast<float>(weight));
+            values.push_back(curve.nodes[k].data());
+        }
+        ++k;
+    }
     using Block = Eigen::Map<Eigen::ArrayXf>;
     using Input = Eigen::Map<const Eigen::ArrayXf>;
     // A block stays in the nearest cache while four nodes at a time are added to it.
@@ -34,8 +43,8 @@ void frame_into(const FloatCurve& curve, double u, std::span<float> result) {
         for (Eigen::Index begin = first; begin < last; begin += block) {
             const Eigen::Index length = std::min(block, last - begin);
             Block out(result.data() + begin, length);
-            const auto in = [&](std::size_t k) { return Input(curve.nodes[k].data() + begin, length); };
-            const auto w = [&](std::size_t k) { return static_cast<float>(weights[k]); };
+            const auto in = [&](std::size_t k) { return Input(values[k] + begin, length); };
+            const auto w = [&](std::size_t k) { return weights[k]; };
             std::size_t k = 1;
             out = w(0) * in(0);
             for (; k + 4 <= weights.size(); k += 4)

@@ -13,16 +13,6 @@
 namespace meshtween {
 namespace {
 
-// The same polynomial through more nodes.
-Curve with_nodes(const Curve& curve, int count) {
-    if (static_cast<int>(curve.nodes.size()) >= count) return curve;
-    Curve result = curve;
-    result.parameters = lobatto_nodes(count);
-    result.nodes.clear();
-    for (const double u : result.parameters) result.nodes.push_back(curve.at(u));
-    return result;
-}
-
 // The derivative at the first or last node.
 Points end_velocity(const Curve& curve, bool last) {
     const std::size_t n = curve.parameters.size(), j = last ? n - 1 : 0;
@@ -102,7 +92,7 @@ void join_velocities(std::vector<Curve>& pieces, const std::vector<double>& time
         wanted[k] = share * pace[i].last * before + (1 - share) * pace[k].first * after;
     }
     for (std::size_t k = 0; k < count; ++k) {
-        pieces[k] = with_nodes(paced(pieces[k], pace[k], options.curve), 5);
+        pieces[k] = resampled(paced(pieces[k], pace[k], options.curve), 5);
         const auto lacks = [&](std::size_t key, bool last) -> Points {
             if (wanted[key].rows() == 0) return Points::Zero(pieces[k].nodes.front().rows(), 3);
             return wanted[key] * duration(k) - end_velocity(pieces[k], last);
@@ -130,6 +120,15 @@ Curve chained(std::vector<Curve> pieces, const std::vector<double>& times) {
     return chain;
 }
 
+void add(RepairReport& sum, const RepairReport& one) {
+    sum.cuts_before += one.cuts_before;
+    sum.cuts_after += one.cuts_after;
+    sum.contacts += one.contacts;
+    sum.left += one.left;
+    sum.trials += one.trials;
+    sum.moved = std::max(sum.moved, one.moved);
+}
+
 } // namespace
 
 KeyPath key_path(const Mesh& mesh, const std::vector<Points>& shapes, const KeyOptions& options,
@@ -137,13 +136,17 @@ KeyPath key_path(const Mesh& mesh, const std::vector<Points>& shapes, const KeyO
     if (shapes.size() < 2) throw Error(ErrorKind::argument, "a path through keys needs at least two shapes");
     const std::size_t count = shapes.size() - (options.closed ? 0 : 1);
     const std::vector<double> times = checked_times(count, options.times);
+    const auto piece_of = [&](const Progress& whole, std::size_t k, double from, double to) {
+        const double length = (to - from) / static_cast<double>(count), start = from + length * static_cast<double>(k);
+        return part_of(whole, start, start + length);
+    };
+    const double solved = options.repair ? 0.5 : 1; // of the progress
     KeyPath path;
     std::vector<Curve> pieces;
     for (std::size_t k = 0; k < count; ++k) {
         Mesh from = mesh;
         from.positions = shapes[k];
-        const Progress part = part_of(progress, static_cast<double>(k) / static_cast<double>(count),
-                                      static_cast<double>(k + 1) / static_cast<double>(count));
+        const Progress part = piece_of(progress, k, 0, solved);
         Morph between = morph(from, shapes[(k + 1) % shapes.size()], options.morph, part_of(part, 0, 0.3));
         if (options.timing) between = retimed(between, *options.timing);
         pieces.push_back(curve(between, options.curve, part_of(part, 0.3, 1)));
@@ -154,6 +157,15 @@ KeyPath key_path(const Mesh& mesh, const std::vector<Points>& shapes, const KeyO
         if (between.report && between.report().sweeps >= path.report.sweeps) path.report = between.report();
     }
     if (count > 1) join_velocities(pieces, times, options);
+    for (std::size_t k = 0; k < count && options.repair; ++k) {
+        Repaired better = repaired(pieces[k], mesh.triangles, *options.repair, piece_of(progress, k, solved, 1));
+        if (better.cancelled) {
+            path.curve.cancelled = true;
+            return path;
+        }
+        pieces[k] = std::move(better.curve);
+        add(path.repair, better.report);
+    }
     path.curve = chained(std::move(pieces), times);
     return path;
 }

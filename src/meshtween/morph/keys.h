@@ -1,7 +1,7 @@
 // Several key shapes in a row, passed with continuous velocity; and blends of several shapes.
 #pragma once
 
-#include "meshtween/morph/curve.h"
+#include "meshtween/morph/repair.h"
 #include "meshtween/morph/timing.h"
 
 #include <optional>
@@ -10,15 +10,17 @@ namespace meshtween {
 
 struct KeyOptions {
     MorphOptions morph;
-    CurveOptions curve;                 // of each piece; with several pieces max_nodes counts as 5 at least
-    std::vector<double> times;          // one a shape, ascending from 0 to 1; empty for equal steps
-    bool closed = false;                // the last shape goes on to the first: one more piece, and one more time
-    std::optional<RegionTiming> timing; // regions with times of their own, within each piece
+    CurveOptions curve;                  // of each piece; with several pieces max_nodes counts as 5 at least
+    std::vector<double> times;           // one a shape, ascending from 0 to 1; empty for equal steps
+    bool closed = false;                 // the last shape goes on to the first: one more piece, and one more time
+    std::optional<RegionTiming> timing;  // regions with times of their own, within each piece
+    std::optional<RepairOptions> repair; // bend pieces where they cut themselves; none: leave them as they are
 };
 
 struct KeyPath {
-    Curve curve;        // a piece from key to key; cancelled where the progress said so: then it has no nodes
-    SolveReport report; // of the most laborious solve
+    Curve curve;         // a piece from key to key; cancelled where the progress said so: then it has no nodes
+    SolveReport report;  // of the most laborious solve
+    RepairReport repair; // of all pieces together
 };
 
 // A path through shapes of one mesh, curve.at(times[k]) being shapes[k], with continuous velocity. Between neighbours

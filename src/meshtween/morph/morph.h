@@ -34,6 +34,7 @@ struct MorphOptions {
     double tolerance = 1e-7; // of the Gauss-Seidel solve: largest move of a sweep, parts of the diagonal
     int max_sweeps = 5000;
     int patches = 400; // of `rigid`: pieces whose rotations are interpolated against their neighbours'
+    int rounds = 12;   // of `rigid`: of correcting the lengths of the middle shape, where they lack much; 0 for none
 };
 
 // A path of shapes: at(0) is `from`, at(1) is `to`, to rounding; dual_as_printed only to its solve's tolerance. Safe to

@@ -254,6 +254,10 @@ FaceField face_field(const Points& from, const Points& to, const Triangles& tria
     return field;
 }
 
+Quaternions mean_rotations(const FaceField& faces, const std::vector<int>& group, int count) {
+    return means(faces, group, count).rotation;
+}
+
 Patches patches(const FaceField& faces, const Triangles& triangles, const Topology& topology, int count) {
     const Groups graph = groups(faces, topology, 40 * count);
     int found = 0;

@@ -39,6 +39,9 @@ struct Patches {
 // matter which shape is first.
 Patches patches(const FaceField& faces, const Triangles& triangles, const Topology& topology, int count);
 
+// The mean rotation of each group of triangles, weighted by area. `group` names one a triangle, of 0..count-1.
+Quaternions mean_rotations(const FaceField& faces, const std::vector<int>& group, int count);
+
 // A component that goes along with a patch of another.
 struct Attachment {
     int host = 0; // a patch of a component that is already held

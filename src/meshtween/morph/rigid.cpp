@@ -6,15 +6,19 @@
 //   Baran et al. 2009 and Lipman et al. 2005 (rotations relative to neighbours; turns.cpp)
 // With R the rotation of a triangle and a, b an edge in both shapes, the edge at u is R(u) ((1 - u) a + u R^T b): its
 // stretch is blended linearly. The same shapes come from either end, and they are exact at both.
+// Where that strains edges much, as in a thick twisted bar, whose turns and stretches do not fit together on the way,
+// a middle shape is sought whose lengths do (blended_lengths.cpp), and turns and edges go through it on parabolas.
 #include "meshtween/core/parallel.h"
 #include "meshtween/geometry/measure.h"
 #include "meshtween/geometry/topology.h"
+#include "meshtween/morph/blended_lengths.h"
 #include "meshtween/morph/methods.h"
 #include "meshtween/morph/rigid_motion.h"
 #include "meshtween/morph/turns.h"
 #include "meshtween/solve/cholesky.h"
 #include "meshtween/solve/laplacian.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -46,7 +50,9 @@ struct Prepared {
     Turns turns;
     std::vector<int> patch_of_triangle;
     Points back_01, back_12; // m x 3: edges of `to`, turned back by the triangle's rotation
-    Corners weights;         // half cotangents
+    Points bow_01,
+        bow_12;      // m x 3: how far the middle's edges, turned back, lie beside the mean; empty without a middle
+    Corners weights; // half cotangents
     Lists vertex_triangles;
     std::vector<std::vector<int>> component_vertices;
     std::vector<char> isolated; // vertices of no triangle, which move on straight lines
@@ -102,6 +108,10 @@ std::array<Eigen::Vector3d, 3> local_edges(const Prepared& s, int t, double u) {
     std::array<Eigen::Vector3d, 3> edge;
     edge[0] = ((1 - u) * (p(1) - p(0)) + u * s.back_01.row(t)).transpose();
     edge[1] = ((1 - u) * (p(2) - p(1)) + u * s.back_12.row(t)).transpose();
+    if (s.bow_01.rows() > 0) {
+        edge[0] += 4 * u * (1 - u) * s.bow_01.row(t).transpose();
+        edge[1] += 4 * u * (1 - u) * s.bow_12.row(t).transpose();
+    }
     edge[2] = -edge[0] - edge[1];
     return edge;
 }
@@ -112,6 +122,7 @@ std::array<Eigen::Vector3d, 3> local_edges(const Prepared& s, int t, double u) {
 // and in between volumes do (bars of 4 : 1 : 1 twisted by 180 and 270 degrees, to 0.5 %, where none gives 1.4 %). Less
 // of it goes where it is large: there lengths are what is left to keep.
 double area_correction(const Prepared& s, int t, double u) {
+    if (s.bow_01.rows() > 0) return 1; // the middle shape has the right area
     const auto edge = local_edges(s, t, u);
     const auto p = [&](int k) { return Point(s.from.row(s.triangles(t, k))); };
     const double have = edge[0].cross(edge[1]).norm();
@@ -199,6 +210,41 @@ Points shape_at(const Prepared& s, const Times& times) {
     return placed(s.motion, put_together(s, s.poisson.solve(right), patches, times), times.whole);
 }
 
+// An edge turned back by a rotation, for both edges that a triangle is made of.
+void turn_back(const Quaternions& rotation, const Points& shape, const Triangles& triangles, Points& edge_01,
+               Points& edge_12) {
+    edge_01.resize(triangles.rows(), 3);
+    edge_12.resize(triangles.rows(), 3);
+    parallel_for(triangles.rows(), [&](Eigen::Index t) {
+        const Eigen::Quaterniond back = rotation[static_cast<std::size_t>(t)].conjugate();
+        const auto p = [&](int k) { return shape.row(triangles(t, k)); };
+        edge_01.row(t) = (back * Eigen::Vector3d((p(1) - p(0)).transpose())).transpose();
+        edge_12.row(t) = (back * Eigen::Vector3d((p(2) - p(1)).transpose())).transpose();
+    });
+}
+
+// Leads the path through a middle shape with the lengths that edges should have there, where they lack much.
+void lead_through_middle(Prepared& s, bool closed, int rounds) {
+    constexpr double much = 0.002; // mean strain: less is not worth the solves
+    const LengthProblem lengths{s.from, s.to, s.triangles, s.weights, s.vertex_triangles, s.poisson, closed};
+    const Times half = same_times(s, 0.5);
+    const Quaternions patches = patch_rotations(s.turns, half.patches);
+    const Points straight =
+        s.poisson.solve(divergence(s, face_rotations(s.turns, patches, half.triangles), half.triangles));
+    const double strain = middle_strain(lengths, straight);
+    if (!(strain > much)) return;
+    const Points middle = with_blended_lengths(lengths, straight, rounds);
+    if (!(middle_strain(lengths, middle) < 0.95 * strain)) return;
+    s.turns = by_way_of(std::move(s.turns), face_field(s.from, middle, s.triangles), s.patch_of_triangle);
+    const Quaternions turned = face_rotations(s.turns, patch_rotations(s.turns, half.patches), half.triangles);
+    turn_back(turned, middle, s.triangles, s.bow_01, s.bow_12);
+    parallel_for(s.triangles.rows(), [&](Eigen::Index t) {
+        const auto p = [&](int k) { return s.from.row(s.triangles(t, k)); };
+        s.bow_01.row(t) -= (p(1) - p(0) + s.back_01.row(t)) / 2;
+        s.bow_12.row(t) -= (p(2) - p(1) + s.back_12.row(t)) / 2;
+    });
+}
+
 } // namespace
 
 Morph rigid_morph(const Mesh& from, const Points& to, const MorphOptions& options, const Progress& progress) {
@@ -226,6 +272,8 @@ Morph rigid_morph(const Mesh& from, const Points& to, const MorphOptions& option
                                                  parts.of_triangle,
                                                  {},
                                                  {},
+                                                 {},
+                                                 {},
                                                  std::move(weights),
                                                  top.vertex_triangles,
                                                  {},
@@ -236,14 +284,13 @@ Morph rigid_morph(const Mesh& from, const Points& to, const MorphOptions& option
     const Times last = same_times(*s, 1);
     const Quaternions patch_end = patch_rotations(s->turns, last.patches);
     const Quaternions end = face_rotations(s->turns, patch_end, last.triangles);
-    s->back_01.resize(triangles.rows(), 3);
-    s->back_12.resize(triangles.rows(), 3);
-    parallel_for(triangles.rows(), [&](Eigen::Index t) {
-        const Eigen::Quaterniond back = end[static_cast<std::size_t>(t)].conjugate();
-        const auto p = [&](int k) { return s->to.row(triangles(t, k)); };
-        s->back_01.row(t) = (back * Eigen::Vector3d((p(1) - p(0)).transpose())).transpose();
-        s->back_12.row(t) = (back * Eigen::Vector3d((p(2) - p(1)).transpose())).transpose();
-    });
+    turn_back(end, s->to, triangles, s->back_01, s->back_12);
+    tell(0.8);
+    if (options.rounds > 0) {
+        const bool closed =
+            std::none_of(top.on_boundary.begin(), top.on_boundary.end(), [](char open) { return open; });
+        lead_through_middle(*s, closed, options.rounds);
+    }
     for (std::size_t i = 0; i < component.size(); ++i) {
         const auto c = static_cast<std::size_t>(component[i]);
         if (c >= s->component_vertices.size()) s->component_vertices.resize(c + 1);

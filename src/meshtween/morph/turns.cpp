@@ -74,6 +74,11 @@ FaceTurn face_turn(const FaceField& faces, const Patches& patches, const std::ve
     return turn;
 }
 
+// A rotation vector on its way: straight, or on a parabola.
+Eigen::Vector3d on_the_way(double u, const Eigen::Vector3d& vector, const Eigen::Vector3d& bow) {
+    return u * vector + 4 * u * (1 - u) * bow;
+}
+
 } // namespace
 
 Turns turns(const FaceField& faces, const Patches& patches, const std::vector<Attachment>& attached) {
@@ -111,15 +116,35 @@ Turns turns(const FaceField& faces, const Patches& patches, const std::vector<At
     return result;
 }
 
+Turns by_way_of(Turns turns, const FaceField& to_middle, const std::vector<int>& patch_of_triangle) {
+    const Quaternions patch = mean_rotations(to_middle, patch_of_triangle, turns.patch_count);
+    const auto of = [&](int p) { return patch[static_cast<std::size_t>(p)]; };
+    for (PatchTurn& link : turns.links)
+        link.bow = rotation_vector(of(link.first).conjugate() * of(link.second)) - link.rotation_vector / 2;
+    if (turns.patch_count > 0) turns.root_bow = rotation_vector(of(turns.root)) - turns.root_vector / 2;
+    turns.face_bows.resize(turns.faces.size());
+    parallel_for(static_cast<Eigen::Index>(turns.faces.size()), [&](Eigen::Index t) {
+        const FaceTurn& face = turns.faces[static_cast<std::size_t>(t)];
+        auto& bows = turns.face_bows[static_cast<std::size_t>(t)];
+        bows.fill(Eigen::Vector3f::Zero());
+        if (to_middle.area[t] <= 0) return;
+        for (std::size_t k = 0; k < FaceTurn::most; ++k)
+            bows[k] = rotation_vector(of(face.patch[k]).conjugate() * to_middle.rotation[static_cast<std::size_t>(t)])
+                          .cast<float>() -
+                      face.rotation_vector[k] / 2;
+    });
+    return turns;
+}
+
 Quaternions patch_rotations(const Turns& turns, const Eigen::VectorXd& u) {
     std::vector<RotationLink> links;
     for (const PatchTurn& link : turns.links) {
         const double own = (u[link.first] + u[link.second]) / 2;
-        links.push_back(
-            {link.first, link.second, exponential(own * link.rotation_vector).toRotationMatrix(), link.weight});
+        links.push_back({link.first, link.second,
+                         exponential(on_the_way(own, link.rotation_vector, link.bow)).toRotationMatrix(), link.weight});
     }
-    return synchronised(turns.patch_count, links,
-                        {{turns.root, exponential(u[turns.root] * turns.root_vector).toRotationMatrix()}});
+    const Eigen::Vector3d root = on_the_way(u[turns.root], turns.root_vector, turns.root_bow);
+    return synchronised(turns.patch_count, links, {{turns.root, exponential(root).toRotationMatrix()}});
 }
 
 Quaternions face_rotations(const Turns& turns, const Quaternions& patches, const Eigen::VectorXd& u) {
@@ -127,8 +152,11 @@ Quaternions face_rotations(const Turns& turns, const Quaternions& patches, const
     parallel_for(static_cast<Eigen::Index>(turns.faces.size()), [&](Eigen::Index t) {
         const FaceTurn& face = turns.faces[static_cast<std::size_t>(t)];
         const auto seen_from = [&](std::size_t k) {
-            return patches[static_cast<std::size_t>(face.patch[k])] *
-                   exponential(u[t] * face.rotation_vector[k].cast<double>());
+            const Eigen::Vector3d vector = face.rotation_vector[k].cast<double>();
+            const Eigen::Vector3d bow = turns.face_bows.empty()
+                                            ? Eigen::Vector3d(0, 0, 0)
+                                            : turns.face_bows[static_cast<std::size_t>(t)][k].cast<double>();
+            return patches[static_cast<std::size_t>(face.patch[k])] * exponential(on_the_way(u[t], vector, bow));
         };
         const Eigen::Quaterniond own = seen_from(0);
         Eigen::Vector4d sum = own.coeffs();

@@ -18,6 +18,7 @@ struct PatchTurn {
     int first = 0, second = 0;
     Eigen::Vector3d rotation_vector; // of the second against the first, in the first shape's frame
     double weight = 0;
+    Eigen::Vector3d bow{0, 0, 0}; // how far the middle of the way lies beside half of that vector
 };
 
 struct Turns {
@@ -26,9 +27,16 @@ struct Turns {
     int patch_count = 0;
     int root = 0;                         // the patch that turns least
     Eigen::Vector3d root_vector{0, 0, 0}; // its rotation vector
+    Eigen::Vector3d root_bow{0, 0, 0};
+    std::vector<std::array<Eigen::Vector3f, FaceTurn::most>>
+        face_bows; // one a face, or none where all ways are straight
 };
 
 Turns turns(const FaceField& faces, const Patches& patches, const std::vector<Attachment>& attached);
+
+// The same turns by way of a middle shape at u = 0.5, into which the triangles turn like this: rotation vectors are no
+// longer scaled by u alone, but go through the middle's on parabolas.
+Turns by_way_of(Turns turns, const FaceField& to_middle, const std::vector<int>& patch_of_triangle);
 
 // The patches' rotations at their parameters u. N each.
 Quaternions patch_rotations(const Turns& turns, const Eigen::VectorXd& u);
