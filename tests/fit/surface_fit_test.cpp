@@ -140,6 +140,27 @@ Mesh sheet(int n) {
     return m;
 }
 
+TEST(SurfaceFit, WhatNoMarkerNamesIsCoveredToo) {
+    const Mesh m = sphere(4);
+    Mesh target = sphere(4);
+    Eigen::Index tip = 0;
+    target.positions.col(2).maxCoeff(&tip);
+    for (Eigen::Index i = 0; i < target.positions.rows(); ++i) { // a horn as long as the ball
+        const double away = (target.positions.row(i) - Point(0, 0, 1)).norm();
+        target.positions.row(i) *= 1 + 2 * std::exp(-std::pow(away / 0.2, 2));
+    }
+    std::vector<Marker> markers;
+    for (Marker& marker : vertex_markers(m, m.positions, 40))
+        if (marker.target[2] < 0.3) markers.push_back(marker);
+    ASSERT_GE(markers.size(), 4u);
+    const FitResult r = surface_fit(m, target, markers);
+    const ClosestPointIndex fitted(r.positions, m.triangles);
+    for (Eigen::Index i = 0; i < target.positions.rows(); ++i)
+        EXPECT_LT(fitted.closest(Point(target.positions.row(i))).squared_distance,
+                  std::pow(0.02 * diagonal(target.positions), 2))
+            << target.positions.row(i);
+}
+
 TEST(SurfaceFit, ABorderNearTheTargetsMeetsIt) {
     const Mesh m = sheet(12);
     Mesh target = sheet(17);

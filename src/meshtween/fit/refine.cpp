@@ -8,6 +8,7 @@
 #include "meshtween/fit/refine.h"
 
 #include "meshtween/core/parallel.h"
+#include "meshtween/fit/back_pulls.h"
 #include "meshtween/geometry/measure.h"
 #include "meshtween/geometry/place_on_triangle.h"
 
@@ -143,6 +144,7 @@ FitTarget fit_target(const Points& positions, const Triangles& triangles) {
     FitTarget target{positions,
                      triangles,
                      vertex_normals(positions, triangles),
+                     vertex_area_shares(positions, triangles),
                      topology(positions.rows(), triangles),
                      ClosestPointIndex(positions, triangles),
                      {},
@@ -244,6 +246,8 @@ Relaxed relax(const ShellLevels& shells, std::size_t level, const Points& positi
                 result.trust[idx(i)] = p.trust;
             },
             256);
+        add_back_pulls(shell, positions, target, weights.back * weights.closeness, weights.reach, systems[0].blocks,
+                       right);
         if (target.border_index) add_border_pulls(shell, positions, target, weights, systems[0].blocks, right);
     }
     for (std::size_t k = level + 1; k < shells.levels.size(); ++k) {

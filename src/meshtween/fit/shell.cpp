@@ -167,14 +167,20 @@ Shell shell(const Points& rest, const Triangles& triangles) {
     result.topology = topology(rest.rows(), triangles);
     result.normals = vertex_normals(rest, triangles);
     const double area = surface_area(rest, triangles);
-    result.area.assign(static_cast<std::size_t>(rest.rows()), 0);
-    for (Eigen::Index t = 0; t < triangles.rows(); ++t)
-        for (int k = 0; k < 3; ++k)
-            result.area[static_cast<std::size_t>(triangles(t, k))] += triangle_area(rest, triangles, t) / 3 / area;
+    result.area = vertex_area_shares(rest, triangles);
     add_edge_weights(result);
     add_hinges(result, area);
     add_forms(result, area);
     return result;
+}
+
+std::vector<double> vertex_area_shares(const Points& positions, const Triangles& triangles) {
+    const double area = surface_area(positions, triangles);
+    std::vector<double> shares(static_cast<std::size_t>(positions.rows()), 0);
+    for (Eigen::Index t = 0; t < triangles.rows(); ++t)
+        for (int k = 0; k < 3; ++k)
+            shares[static_cast<std::size_t>(triangles(t, k))] += triangle_area(positions, triangles, t) / 3 / area;
+    return shares;
 }
 
 std::vector<Matrix3d> local_frames(const Shell& shell, const Points& positions, int smoothing, bool with_scale) {

@@ -35,6 +35,9 @@ struct Shell {
 
 Shell shell(const Points& rest, const Triangles& triangles);
 
+// Each vertex's third of the triangles around it, over the whole area. n.
+std::vector<double> vertex_area_shares(const Points& positions, const Triangles& triangles);
+
 // How each vertex's neighbourhood lies after a deformation: a rotation times a scale (with_scale) or a rotation, the
 // best one for the edges around it after `smoothing` rounds of averaging with its neighbours. n.
 std::vector<Eigen::Matrix3d> local_frames(const Shell& shell, const Points& positions, int smoothing, bool with_scale);

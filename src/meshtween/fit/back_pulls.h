@@ -1,0 +1,19 @@
+// Pulls from the target's side: each place of the target draws the nearest place of the mesh.
+#pragma once
+
+#include "meshtween/core/mesh.h"
+#include "meshtween/fit/refine.h"
+#include "meshtween/fit/shell.h"
+
+#include <vector>
+
+namespace meshtween {
+
+// Adds to a level's system (blocks, one a vertex, and right side, n x 3) the pulls of the target's vertices, about as
+// many as the mesh has. Each draws the closest compatible place of the mesh no further than `reach` (diagonals)
+// straight towards itself, shared among the corners of the triangle there. All of them together weigh `weight`. What
+// lies beyond an open mesh's border does not pull.
+void add_back_pulls(const Shell& shell, const Points& positions, const FitTarget& target, double weight, double reach,
+                    std::vector<Eigen::Matrix3d>& blocks, Points& right);
+
+} // namespace meshtween
