@@ -90,7 +90,7 @@ void add_morph(CLI::App& app, const Common& common) {
     verb->add_option("--markers-b", a->markers_b, "Template and TARGET")->expected(1, 2)->needs(with_template);
     with_template->excludes(markers);
     verb->add_option("-o,--output", a->outputs,
-                     "x.glb, x.html, x.png, x.svg or frame_####.obj; may be given several times")
+                     "x.glb, x.html, x.png, x.apng, x.svg or frame_####.obj; may be given several times")
         ->required()
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

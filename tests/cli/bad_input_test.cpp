@@ -178,6 +178,7 @@ const std::vector<Row> rows = {
      {"tween", "#/good.obj", "#/good.obj", "#/b.obj", "-o", "#/f_#.obj"},
      3,
      {"connectivity", "b.obj"}},
+    {"AFilmOfOneShape", {}, tween_with({"--at", "0.5"}, "#/f.apng"), 1, {"f.apng"}},
     {"APlotOfOneShape", {}, tween_with({"--at", "0.5"}, "#/f.svg"), 1, {"f.svg"}},
     {"NoRegionsFile", {}, tween_with({"--regions", "#/absent.csv"}), 3, {"absent.csv"}},
     {"RegionsEmpty", {{"r.csv", "vertex,start,end\n"}}, tween_with({"--regions", "#/r.csv"}), 3, {"r.csv", "no row"}},

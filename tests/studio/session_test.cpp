@@ -59,7 +59,7 @@ TEST(Session, fits_morphs_exports_and_remembers) {
     const std::string fitted = session->fitted_buffer("positions");
     EXPECT_EQ(fitted.size(), state["meshes"]["source"]["vertices"].get<std::size_t>() * 12);
 
-    session->start_path({{"method", "linear"}});
+    session->start_path({{"options", {{"method", "linear"}}}});
     session->wait();
     state = session->state();
     ASSERT_EQ(state["paths"].size(), 1U) << state["job"].dump();
@@ -67,6 +67,28 @@ TEST(Session, fits_morphs_exports_and_remembers) {
     const std::size_t last = state["paths"][0]["parameters"].size() - 1;
     EXPECT_EQ(session->path_buffer(key, last, "positions"), fitted) << "the path ends at the fitted mesh";
     message_of(ErrorKind::argument, [&] { session->path_buffer(key, last + 1, "positions"); });
+
+    // Painted all over, everything has come home by the middle.
+    const Json all{{"at", {0, 0, 0}}, {"radius", 10}, {"start", 0}, {"end", 0.5}};
+    session->start_path({{"options", {{"method", "linear"}}}, {"timing", {{"dabs", Json::array({all})}}}});
+    session->wait();
+    state = session->state();
+    ASSERT_EQ(state["paths"].size(), 2U) << state["job"].dump();
+    const Json& painted = state["paths"][state["paths"][0]["key"] == key ? 1 : 0];
+    const std::vector<double> moments = painted["parameters"];
+    const std::string half = session->path_buffer(painted["key"], moments.size() / 2, "positions");
+    for (std::size_t i = 0; i < half.size(); i += sizeof(float)) {
+        float there = 0, wanted = 0;
+        std::memcpy(&there, half.data() + i, sizeof there);
+        std::memcpy(&wanted, fitted.data() + i, sizeof wanted);
+        ASSERT_NEAR(there, wanted, 1e-5) << i;
+    }
+    Json late = all;
+    late["start"] = 0.7;
+    session->start_path({{"options", Json::object()}, {"timing", {{"dabs", Json::array({late})}}}});
+    session->wait();
+    EXPECT_NE(session->state()["job"]["error"].dump().find("dab 1 of the timing must start before it ends"),
+              std::string::npos);
 
     session->start_export(
         {{"names", {"fitted.obj", "frame_##.ply"}}, {"frames", 3}, {"options", {{"method", "linear"}}}});
@@ -133,7 +155,7 @@ TEST(Session, refuses_what_cannot_be_and_keeps_what_was) {
     const auto session = house.open();
     session->set_document(House::document());
     const Json before = session->project_json();
-    EXPECT_NE(message_of(ErrorKind::argument, [&] { session->start_path(nullptr); }).find("no fit yet"),
+    EXPECT_NE(message_of(ErrorKind::argument, [&] { session->start_path(Json::object()); }).find("no fit yet"),
               std::string::npos);
     message_of(ErrorKind::argument, [&] { session->start_fit({{"rounds", "many"}}); });
     message_of(ErrorKind::argument, [&] { session->start_fit({{"rounds", 1e9}}); });

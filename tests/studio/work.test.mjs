@@ -141,6 +141,27 @@ test('import, fit, morph, export, crash, go on', async (t) => {
     await page.getByRole('button', { name: 'pause', exact: true }).click()
   })
 
+  await t.test('paint the timing', async () => {
+    const dabs = () => page.evaluate(() => window.studio.store.document.timing.dabs.length)
+    await page.keyboard.press('b')
+    await page.locator('[data-view=source]').waitFor()
+    const [x, y] = (await placesIn(page, 'source'))[0]
+    const box = await page.locator('[data-view=source]').boundingBox()
+    const at = [box.x + x * box.width, box.y + y * box.height]
+    await page.mouse.move(...at)
+    await page.mouse.down()
+    await page.mouse.move(at[0] + 8, at[1] + 8, { steps: 4 })
+    await page.mouse.up()
+    assert.ok((await dabs()) > 0)
+    const yellow = await page.evaluate(() => window.studio.models.source.geometry.getAttribute('color').array.filter((v, i) => i % 4 === 0 && v !== 68).length)
+    assert.ok(yellow > 0, 'the painted place has the colour of its moment')
+    await page.keyboard.press('Control+z')
+    assert.equal(await dabs(), 0, 'a stroke is one edit')
+    await page.keyboard.press('b')
+    assert.equal(await page.evaluate(() => window.studio.models.source.geometry.hasAttribute('color')), false)
+    await saved(page)
+  })
+
   await t.test("the exported GLB is the command line's", async () => {
     await step(page, 'Export')
     const [download] = await Promise.all([

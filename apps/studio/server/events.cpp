@@ -10,8 +10,8 @@ constexpr std::size_t memory = 256; // messages
 void Events::publish(std::string_view name, const Json& data) {
     {
         const std::lock_guard lock(mutex_);
-        messages_.push_back(
-            fmt::format("id: {}\nevent: {}\ndata: {}\n\n", first_ + messages_.size(), name, data.dump(-1, ' ', false, Json::error_handler_t::replace)));
+        messages_.push_back(fmt::format("id: {}\nevent: {}\ndata: {}\n\n", first_ + messages_.size(), name,
+                                        data.dump(-1, ' ', false, Json::error_handler_t::replace)));
         if (messages_.size() > memory) {
             messages_.pop_front();
             ++first_;

@@ -19,9 +19,9 @@ class Events {
 public:
     void publish(std::string_view name, const Json& data);
 
-    // The messages from number `next` on, as text of server-sent events with their numbers as ids, waiting up to `longest` for one; moves `next`
-    // behind them. A reader that fell too far behind gets one message "resync" instead of what it missed. Empty where
-    // nothing came.
+    // The messages from number `next` on, as text of server-sent events with their numbers as ids, waiting up to
+    // `longest` for one; moves `next` behind them. A reader that fell too far behind gets one message "resync" instead
+    // of what it missed. Empty where nothing came.
     std::string wait(std::uint64_t& next, std::chrono::milliseconds longest);
     std::uint64_t end() const; // the number that the next message will get
 

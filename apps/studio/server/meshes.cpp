@@ -5,6 +5,7 @@
 #include "meshtween/app/report.h"
 #include "meshtween/core/error.h"
 #include "meshtween/core/parallel.h"
+#include "meshtween/fit/correspondence.h"
 #include "meshtween/fit/markers.h"
 #include "meshtween/geometry/measure.h"
 #include "meshtween/io/mesh_io.h"
@@ -171,6 +172,8 @@ Fitted shown(const OpenMesh& source, const OpenMesh& target, Points positions) {
             100 * std::sqrt(target.index.closest(Point(points.row(i))).squared_distance) / target.frame.scale;
     });
     fitted.stretch = vertex_stretch(source.mesh, points);
+    const std::vector<double> trust = correspondence(fitted.mesh, target.mesh).trust;
+    fitted.trust = Eigen::Map<const Eigen::VectorXd>(trust.data(), std::ssize(trust));
     return fitted;
 }
 

@@ -130,6 +130,7 @@ Json to_json(const Project& project, const std::filesystem::path& folder) {
             {"source", to_json(project.source, folder)},
             {"target", to_json(project.target, folder)},
             {"symmetry", project.symmetry},
+            {"timing", project.timing},
             {"options", project.options},
             {"markers", to_json(project.markers)},
             {"fit", project.fit}};
@@ -146,6 +147,7 @@ Project project_from_json(const Json& json, const std::filesystem::path& folder)
     project.target = file_from_json(json.value("target", Json()), folder);
     project.markers = markers_from_json(json.value("markers", Json::array()));
     project.symmetry = object_in(json, "symmetry");
+    project.timing = object_in(json, "timing");
     project.options = object_in(json, "options");
     project.fit = json.value("fit", Json());
     return project;

@@ -35,6 +35,7 @@ struct Project {
     MeshFile source, target;
     std::vector<PlacedMarker> markers;
     Json symmetry = Json::object(); // the page's own: plane and switch
+    Json timing = Json::object();   // when each part moves, see timing.h
     Json options = Json::object();  // {"fit": {...}, "morph": {...}}
     Json fit;                       // what the last fit found out; null where there is none
 

@@ -92,27 +92,30 @@ Json Session::state() const {
     Json paths = Json::array();
     for (const auto& [key, path] : paths_)
         paths.push_back({{"key", key},
+                         {"asked", path->asked},
                          {"parameters", path->curve.parameters},
                          {"deviation", path->curve.deviation},
                          {"frame", to_json(path->frame)}});
     Json offered = Json::array();
     for (const SampleInfo& info : samples())
         offered.push_back({{"name", info.name}, {"description", info.description}});
-    Json state{
-        {"project", {{"file", file_.string()}, {"folder", access_.folder().string()}}},
-        {"document",
-         {{"markers", to_json(project_.markers)}, {"symmetry", project_.symmetry}, {"options", project_.options}}},
-        {"meshes",
-         {{"source", open_.source ? to_json(*open_.source) : Json()},
-          {"target", open_.target ? to_json(*open_.target) : Json()}}},
-        {"fit", fitted_ ? fitted_->summary : Json()},
-        {"fit_is_of_these_markers", fitted_ && fitted_->summary.value("mark", "") == mark_of(project_.markers)},
-        {"paths", paths},
-        {"job", jobs_.status()},
-        {"schema", {{"fit", fit_schema()}, {"morph", morph_schema()}}},
-        {"samples", offered},
-        {"mesh_formats", mesh_extensions()},
-        {"notes", notes_}};
+    Json state{{"project", {{"file", file_.string()}, {"folder", access_.folder().string()}}},
+               {"document",
+                {{"markers", to_json(project_.markers)},
+                 {"symmetry", project_.symmetry},
+                 {"timing", project_.timing},
+                 {"options", project_.options}}},
+               {"meshes",
+                {{"source", open_.source ? to_json(*open_.source) : Json()},
+                 {"target", open_.target ? to_json(*open_.target) : Json()}}},
+               {"fit", fitted_ ? fitted_->summary : Json()},
+               {"fit_is_of_these_markers", fitted_ && fitted_->summary.value("mark", "") == mark_of(project_.markers)},
+               {"paths", paths},
+               {"job", jobs_.status()},
+               {"schema", {{"fit", fit_schema()}, {"morph", morph_schema()}}},
+               {"samples", offered},
+               {"mesh_formats", mesh_extensions()},
+               {"notes", notes_}};
     if (open_.source && open_.target)
         state["result_frame"] = to_json(frame_of(open_.source->mesh.positions, open_.target->mesh.positions));
     return state;
@@ -232,14 +235,16 @@ void Session::set_document(const Json& document) {
     if (!document.is_object()) throw Error(ErrorKind::argument, "the document must be an object");
     std::vector<PlacedMarker> markers = markers_from_json(document.value("markers", Json::array()));
     const Json symmetry = document.value("symmetry", Json::object());
+    const Json timing = document.value("timing", Json::object());
     const Json options = document.value("options", Json::object());
-    if (!symmetry.is_object() || !options.is_object())
-        throw Error(ErrorKind::argument, "symmetry and options must be objects");
+    if (!symmetry.is_object() || !timing.is_object() || !options.is_object())
+        throw Error(ErrorKind::argument, "symmetry, timing and options must be objects");
     fit_options(options.value("fit", Json::object()));
     morph_options(options.value("morph", Json::object()));
     const std::lock_guard lock(mutex_);
     project_.markers = std::move(markers);
     project_.symmetry = symmetry;
+    project_.timing = timing;
     project_.options = options;
     save_locked();
 }

@@ -19,6 +19,7 @@ namespace meshtween::studio {
 
 // A path as the page plays it: few meshes, their weights made by the page from the parameters.
 struct PlayedPath {
+    std::string asked; // the request that it answers
     Frame frame;
     Curve curve;
 };
@@ -38,13 +39,13 @@ public:
     void open_upload(Side side, std::string_view name, const std::string& bytes); // kept in the project's folder
     void open_sample(const std::string& name, bool with_markers);
     void reload(Side side);                  // after a change on disk
-    void set_document(const Json& document); // {markers, symmetry, options}; saved before it returns
+    void set_document(const Json& document); // {markers, symmetry, timing, options}; saved before it returns
     void open_project(const Json& project);  // an uploaded one: its meshes must be in reach
     void clear();                            // a new project in the same file
 
     Json project_json() const;
     std::string mesh_buffer(Side side, const std::string& what) const; // positions normals triangles colors uvs
-    std::string fitted_buffer(const std::string& what) const;          // positions normals distance stretch
+    std::string fitted_buffer(const std::string& what) const;          // also distance stretch trust
     std::string live_positions() const;                                // of the running fit, in the result's frame
     std::string path_buffer(const std::string& key, std::size_t node, const std::string& what) const;
     Json changes() const; // {"source": changed on disk, "target": ...}
@@ -57,8 +58,8 @@ public:
 
     // Each starts a job and returns at once; throws Error(argument) where one is running or something is missing.
     void start_fit(const Json& options);
-    void start_path(const Json& options);
-    void start_export(const Json& request); // {names: ["morph.glb", ...], options, frames}
+    void start_path(const Json& request);   // {options, timing}
+    void start_export(const Json& request); // {names: ["morph.glb", ...], options, timing, frames}
     void cancel();
     void wait(); // until the job has ended
 
@@ -87,7 +88,7 @@ private:
     Project project_;
     Open open_;
     std::shared_ptr<const Fitted> fitted_;
-    std::map<std::string, std::shared_ptr<const PlayedPath>> paths_; // by their options
+    std::map<std::string, std::shared_ptr<const PlayedPath>> paths_; // by the hash of what was asked
     std::shared_ptr<const Points> live_;
     Frame live_frame_;
     std::vector<std::string> notes_;

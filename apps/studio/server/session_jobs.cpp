@@ -1,6 +1,7 @@
 // The long work: fit, path, export; and the buffers that show its results.
 #include "options.h"
 #include "session.h"
+#include "timing.h"
 
 #include "meshtween/app/outputs.h"
 #include "meshtween/core/error.h"
@@ -36,6 +37,22 @@ Points side_of_pairs(const std::vector<MarkerPair>& pairs, Side side) {
     for (std::size_t i = 0; i < pairs.size(); ++i)
         points.row(Eigen::Index(i)) = side == Side::source ? pairs[i].source : pairs[i].target;
     return points;
+}
+
+// How a path is to be made.
+struct PathWanted {
+    MorphOptions options;
+    Json timing;
+};
+
+PathWanted path_wanted(const Json& request) {
+    return {morph_options(request.value("options", Json::object())), request.value("timing", Json())};
+}
+
+Morph path_between(const Mesh& source, const Fitted& fitted, const PathWanted& wanted, const Progress& progress) {
+    const auto timing = painted_timing(wanted.timing, source);
+    const Morph plain = morph(source, fitted.mesh.positions, wanted.options, progress);
+    return timing ? retimed(plain, *timing) : plain;
 }
 
 } // namespace
@@ -99,20 +116,22 @@ Json Session::run_fit(const Open& open, const std::vector<PlacedMarker>& markers
     return summary;
 }
 
-void Session::start_path(const Json& values) {
-    const MorphOptions options = morph_options(values);
+void Session::start_path(const Json& request) {
+    if (!request.is_object()) throw Error(ErrorKind::argument, "a path needs its options");
+    const PathWanted wanted = path_wanted(request);
     const Open open = both();
     const auto fitted = need_fit();
-    const std::string key = (values.is_object() ? values : Json::object()).dump();
-    start(jobs_, "morph", [this, open, fitted, options, key](const Progress& progress) -> Json {
-        const Morph morph =
-            meshtween::morph(open.source->mesh, fitted->mesh.positions, options, part_of(progress, 0, 0.2));
+    const std::string asked = request.dump(), key = hash_of_bytes(asked);
+    start(jobs_, "morph", [this, open, fitted, wanted, asked, key](const Progress& progress) -> Json {
+        const Morph morph = path_between(open.source->mesh, *fitted, wanted, part_of(progress, 0, 0.2));
         if (!keep_going(progress, 0.2, "finding the path")) return nullptr;
         auto path = std::make_shared<PlayedPath>();
+        path->asked = asked;
         path->frame = frame_of(open.source->mesh.positions, open.target->mesh.positions);
         path->curve = curve(morph, played, part_of(progress, 0.2, 1));
         if (path->curve.cancelled || !keep_going(progress, 1, "finding the path")) return nullptr;
         Json told{{"key", key},
+                  {"asked", asked},
                   {"parameters", path->curve.parameters},
                   {"deviation", path->curve.deviation},
                   {"frame", to_json(path->frame)}};
@@ -126,7 +145,7 @@ void Session::start_path(const Json& values) {
 void Session::start_export(const Json& request) {
     if (!request.is_object() || !request.contains("names") || !request["names"].is_array() || request["names"].empty())
         throw Error(ErrorKind::argument, "an export needs names of files");
-    const MorphOptions options = morph_options(request.value("options", Json::object()));
+    const PathWanted wanted = path_wanted(request);
     const Json frames_value = request.value("frames", Json(11));
     const int frames = frames_value.is_number_integer() ? frames_value.get<int>() : 0;
     if (frames < 2 || frames > 100000) throw Error(ErrorKind::argument, "frames must lie between 2 and 100000");
@@ -142,7 +161,7 @@ void Session::start_export(const Json& request) {
             outputs.push_back(output(access_.place_for("exports", name.get<std::string>()).string()));
         }
     }
-    start(jobs_, "export", [open, fitted, options, frames, pairs, outputs](const Progress& progress) -> Json {
+    start(jobs_, "export", [open, fitted, wanted, frames, pairs, outputs](const Progress& progress) -> Json {
         std::vector<Output> stills, plays;
         for (const Output& out : outputs) (out.kind == OutputKind::mesh ? stills : plays).push_back(out);
         Json files = Json::array();
@@ -152,7 +171,7 @@ void Session::start_export(const Json& request) {
         if (!stills.empty()) tell(write_still(fitted->mesh, "source's mesh on the target", {}, stills));
         if (!plays.empty()) {
             const Mesh& source = open.source->mesh;
-            const Morph between = morph(source, fitted->mesh.positions, options, part_of(progress, 0, 0.2));
+            const Morph between = path_between(source, *fitted, wanted, part_of(progress, 0, 0.2));
             Playable playable;
             playable.path = curve(between, {}, part_of(progress, 0.2, 0.7));
             if (playable.path.cancelled) return nullptr;
@@ -198,6 +217,7 @@ std::string Session::fitted_buffer(const std::string& what) const {
     const auto fitted = need_fit();
     if (what == "distance") return value_bytes(fitted->distance);
     if (what == "stretch") return value_bytes(fitted->stretch);
+    if (what == "trust") return value_bytes(fitted->trust);
     const Open open = both();
     return buffer(fitted->mesh, frame_of(open.source->mesh.positions, open.target->mesh.positions), what);
 }

@@ -1,5 +1,6 @@
 #include "meshtween/app/outputs.h"
 
+#include "meshtween/app/film.h"
 #include "meshtween/app/path_plot.h"
 #include "meshtween/core/error.h"
 #include "meshtween/io/mesh_io.h"
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace meshtween {
 namespace {
@@ -30,30 +32,47 @@ Mesh with_positions(const Mesh& mesh, Points positions) {
     return moved;
 }
 
-void write_frame(const Mesh& mesh, double u, const std::filesystem::path& path) {
-    if (lower_extension(path) == ".png")
-        write_png(contact_sheet({{fmt::format("u = {:.3g}", u), mesh, {}}}), path);
-    else
-        write_mesh(mesh, path);
-}
-
 // The shape at a moment of the whole.
 Mesh shown_at(const Playable& playable, double time) {
     return with_positions(playable.mesh, playable.path.at(ease(playable.play.ease, time)));
 }
 
+Film film_of(const Playable& playable) {
+    return {playable.mesh, playable.path.nodes};
+}
+
 void write_sequence(const Playable& playable, const std::filesystem::path& pattern, const Progress& progress,
                     Written& written) {
     const std::vector<double> times = frame_times(playable.frames, playable.order);
+    std::optional<Film> film;
+    if (lower_extension(pattern) == ".png") film = film_of(playable);
     for (std::size_t i = 0; i < times.size(); ++i) {
         if (!keep_going(progress, double(i) / double(times.size()), "writing frames")) {
             written.cancelled = true;
             return;
         }
         const auto path = numbered(pattern, static_cast<int>(i));
-        write_frame(shown_at(playable, times[i]), ease(playable.play.ease, times[i]), path);
+        const Mesh mesh = shown_at(playable, times[i]);
+        if (film)
+            write_png(film->frame(mesh), path);
+        else
+            write_mesh(mesh, path);
         written.files.push_back(path);
     }
+}
+
+// It repeats for ever: there and back, unless the path is closed or shall jump. False where it was cancelled.
+bool write_film(const Playable& playable, const std::filesystem::path& path, const Progress& progress) {
+    const bool back = playable.order == FrameOrder::there && playable.play.ping_pong;
+    const std::vector<double> times = frame_times(playable.frames, back ? FrameOrder::and_back : playable.order);
+    const Film film = film_of(playable);
+    std::vector<Image> images;
+    for (const double time : times) {
+        if (!keep_going(progress, double(images.size()) / double(times.size()), "drawing")) return false;
+        images.push_back(film.frame(shown_at(playable, time)));
+    }
+    write_animated_png(images, playable.play.seconds / std::max(1, playable.frames - 1), path);
+    return true;
 }
 
 // False where it was cancelled; then nothing is written.
@@ -112,12 +131,13 @@ Output output(const std::string& name) {
     if (extension == ".glb") return {OutputKind::glb, path};
     if (extension == ".html") return {OutputKind::html, path};
     if (extension == ".png") return {OutputKind::sheet, path};
+    if (extension == ".apng") return {OutputKind::film, path};
     if (extension == ".svg") return {OutputKind::plot, path};
     if (is_mesh_extension(extension) && extension != ".gltf") return {OutputKind::mesh, path};
     throw Error(
         ErrorKind::argument,
         fmt::format(
-            "-o {}: cannot tell what to write from \"{}\"; use .glb, .html, .png, .svg, .obj, .ply, .stl, .off, "
+            "-o {}: cannot tell what to write from \"{}\"; use .glb, .html, .png, .apng, .svg, .obj, .ply, .stl, .off, "
             "or frame_####.obj for a numbered sequence",
             name, extension));
 }
@@ -156,6 +176,7 @@ Written write_outputs(const Playable& playable, const std::vector<Output>& outpu
         if (kind == OutputKind::glb) write_whole(path, glb);
         if (kind == OutputKind::html) write_whole(path, morph_html(glb, playable.play));
         if (kind == OutputKind::sheet) written.cancelled = !write_sheet(playable, path, part);
+        if (kind == OutputKind::film) written.cancelled = !write_film(playable, path, part);
         if (kind == OutputKind::plot) write_plot(playable, path, part, written);
         if (kind == OutputKind::sequence)
             write_sequence(playable, path, part, written);
@@ -168,7 +189,8 @@ Written write_outputs(const Playable& playable, const std::vector<Output>& outpu
 Written write_still(const Mesh& mesh, const std::string& caption, const std::vector<Tile>& before,
                     const std::vector<Output>& outputs, const Progress& progress) {
     for (const auto& [kind, path] : outputs)
-        if (kind == OutputKind::html || kind == OutputKind::sequence || kind == OutputKind::plot)
+        if (kind == OutputKind::html || kind == OutputKind::sequence || kind == OutputKind::plot ||
+            kind == OutputKind::film)
             throw Error(
                 ErrorKind::argument,
                 fmt::format(

@@ -16,6 +16,7 @@ enum class OutputKind {
     glb,      // x.glb: a playable glTF, or one mesh where a single shape is asked for
     html,     // x.html: a page that plays the morph
     sheet,    // x.png: a contact sheet
+    film,     // x.apng: a picture that moves
     sequence, // frame_####.obj (.ply .stl .off .glb .png): one numbered file a frame
     plot,     // x.svg: volume, area, strain, flips and self-intersections along the path
     mesh,     // x.obj (.ply .stl .off): one mesh
@@ -44,7 +45,7 @@ struct Playable {
     Mesh mesh;  // triangles and attributes; positions are those at u = 0
     Curve path; // from which every output takes its shapes
     PlayOptions play;
-    int frames = 11; // of a sequence, from the first shape to the last
+    int frames = 11; // of a sequence or a film, from the first shape to the last
     FrameOrder order = FrameOrder::there;
     std::vector<Tile> before; // tiles that a contact sheet shows before the in-betweens
     PathQuality quality;      // for a plot; measured where it is empty and a plot is wanted

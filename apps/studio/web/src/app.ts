@@ -12,7 +12,15 @@ import { sides, type Document, type Frame, type Job, type MeshInfo, type Side, t
 
 export type Step = 'open' | 'markers' | 'fit' | 'morph' | 'export'
 export type PaneName = Side | 'result' | 'compare'
-export type Heat = 'none' | 'distance' | 'stretch'
+export type Heat = 'none' | 'distance' | 'stretch' | 'trust'
+
+// What paints when each part moves.
+export interface Brush {
+  on: boolean
+  radius: number
+  start: number
+  end: number
+}
 
 export interface Toast {
   id: number
@@ -30,6 +38,7 @@ class App {
   wires = false
   linked = false
   snap = false
+  brush: Brush = { on: false, radius: 0.05, start: 0.5, end: 1 }
   selected: string | null = null
   heat: Heat = 'stretch'
   heatMost = 0
@@ -160,6 +169,7 @@ class App {
       const told: Document = {
         markers: state.document.markers,
         symmetry: { ...empty.symmetry, ...state.document.symmetry },
+        timing: { ...empty.timing, ...state.document.timing },
         options: { fit: state.document.options.fit ?? {}, morph: state.document.options.morph ?? {} },
       }
       if (JSON.stringify(told) !== JSON.stringify(this.store.document)) this.store.replace(told)

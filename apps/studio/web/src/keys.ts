@@ -2,6 +2,7 @@
 import { api } from './api'
 import { app, type Step } from './app'
 import { find } from './edits'
+import * as painting from './painting'
 import * as placing from './placing'
 import { sides } from './types'
 import { play, player, paths, seek, startFit } from './work'
@@ -61,6 +62,7 @@ export const commands: Command[] = [
   { keys: ['Home'], what: 'Frame the whole models', group: 'Views', run: frameAll },
   { keys: ['Ctrl+Enter'], what: 'Fit', group: 'Fit and morph', run: () => { app.set({ step: 'fit' }); if (!app.running) void startFit() } },
   { keys: ['Space'], what: 'Play or pause', group: 'Fit and morph', run: () => (paths.main ? play(!player.playing) : false) },
+  { keys: ['B'], what: 'The timing brush on and off', group: 'Fit and morph', run: () => (app.step === 'morph' ? painting.change({ on: !app.brush.on }) : false) },
   { keys: [','], what: 'A step towards the source', group: 'Fit and morph', run: () => seek(player.u - 0.02) },
   { keys: ['.'], what: 'A step towards the target', group: 'Fit and morph', run: () => seek(player.u + 0.02) },
 ]

@@ -2,6 +2,7 @@ import { render } from 'preact'
 import { app } from './app'
 import { listenToKeys } from './keys'
 import * as placing from './placing'
+import * as painting from './painting'
 import { Page } from './ui/page'
 import { wire } from './work'
 import { sides } from './types'
@@ -13,9 +14,9 @@ if (theme === 'light' || theme === 'dark') document.documentElement.dataset.them
 for (const side of sides)
   app.stage.add(side, {
     click: (hit, pin) => placing.clicked(side, hit, pin),
-    dragStart: placing.mayDrag,
-    drag: (hit) => placing.dragged(side, hit),
-    dragEnd: placing.dropped,
+    dragStart: (pin, hit) => placing.mayDrag(pin) || painting.begin(side, hit),
+    drag: (hit) => painting.paint(hit) || placing.dragged(side, hit),
+    dragEnd: () => painting.end() || placing.dropped(),
   })
 app.stage.add('result', {})
 app.stage.add('compare', {})

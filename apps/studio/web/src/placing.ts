@@ -74,7 +74,7 @@ export function selectNext(by: number) {
 }
 
 // Only the selected marker can be dragged, and only where it is not locked: nothing moves by accident.
-export function mayDrag(id: string): boolean {
+export function mayDrag(id: string | null): boolean {
   const marker = find(app.store.document, id)
   return app.step === 'markers' && id === app.selected && !!marker && !marker.locked && !app.readOnly
 }

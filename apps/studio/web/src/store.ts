@@ -11,6 +11,7 @@ interface Edit {
 export const emptyDocument = (): Document => ({
   markers: [],
   symmetry: { on: false, axis: 0, source: 0, target: 0 },
+  timing: { dabs: [] },
   options: { fit: {}, morph: {} },
 })
 

@@ -20,12 +20,21 @@ export interface Symmetry {
   target: number
 }
 
+// A touch of the brush: what lies within moves between two moments of the whole.
+export interface Dab {
+  at: Vec3 // in the source's own coordinates
+  radius: number // parts of the source's diagonal
+  start: number
+  end: number
+}
+
 export type Options = Record<string, number | string>
 
 // All that a person makes, and all that undo brings back.
 export interface Document {
   markers: Marker[]
   symmetry: Symmetry
+  timing: { dabs: Dab[] } // of several dabs on a place the last one counts
   options: { fit: Options; morph: Options }
 }
 
@@ -86,6 +95,7 @@ export interface OptionRow {
 
 export interface PathInfo {
   key: string
+  asked: string // the request that it answers
   parameters: number[]
   deviation: number
   frame: Frame
@@ -102,7 +112,7 @@ export interface Job {
 
 export interface State {
   project: { file: string; folder: string }
-  document: { markers: Marker[]; symmetry: Partial<Symmetry>; options: { fit?: Options; morph?: Options } }
+  document: { markers: Marker[]; symmetry: Partial<Symmetry>; timing: { dabs?: Dab[] }; options: { fit?: Options; morph?: Options } }
   meshes: Record<Side, MeshInfo | null>
   fit: FitSummary | null
   fit_is_of_these_markers: boolean

@@ -2,6 +2,7 @@
 import { api, bytes, download } from './api'
 import { app, type Heat } from './app'
 import { placesOf } from './edits'
+import * as painting from './painting'
 import { heatColors, most } from './scene/heat'
 import type { Model } from './scene/model'
 import type { Job, PathInfo, Vec3 } from './types'
@@ -80,16 +81,19 @@ export async function startFit() {
   })
 }
 
-const morphOptions = (method?: string) => ({ ...app.store.document.options.morph, ...(method ? { method } : {}) })
+const pathRequest = (method?: string) => {
+  const { options, timing } = app.store.document
+  return { options: { ...options.morph, ...(method ? { method } : {}) }, ...(timing.dabs.length > 0 ? { timing } : {}) }
+}
 
 export async function startMorph(compare = false) {
   await app.attempt(async () => {
     await app.saver.flush()
     wantedFor = compare ? 'compare' : 'main'
-    const options = morphOptions(compare ? paths.compareMethod : undefined)
-    const known = app.state?.paths.find((path) => path.key === JSON.stringify(options))
+    const request = pathRequest(compare ? paths.compareMethod : undefined)
+    const known = app.state?.paths.find((path) => path.asked === JSON.stringify(request))
     if (known) return showPath(known, wantedFor)
-    await api.morph(options)
+    await api.morph(request)
   })
 }
 
@@ -198,7 +202,7 @@ export const fetchExport = (name: string) => download(`api/download?name=${encod
 export async function startExport(names: string[], frames: number) {
   await app.attempt(async () => {
     await app.saver.flush()
-    await api.export({ names, frames, options: morphOptions() })
+    await api.export({ names, frames, ...pathRequest() })
   })
 }
 
@@ -216,10 +220,14 @@ async function paintHeat() {
     const heat = app.heat
     const values = new Float32Array(await bytes('api/fitted', { what: heat }))
     if (model !== app.result || heat !== app.heat || values.length !== model.vertexCount) return
-    const from = heat === 'stretch' ? 1 : 0
-    // Less than a ten-thousandth of the size is nothing to look at.
-    app.heatMost = Math.max(most(values), from + 0.01)
-    model.setColors(heatColors(values, from, app.heatMost))
+    if (heat === 'trust') {
+      model.setColors(heatColors(values.map((trust) => 1 - trust), 0, 1))
+    } else {
+      const from = heat === 'stretch' ? 1 : 0
+      // Less than a ten-thousandth of the size is nothing to look at.
+      app.heatMost = Math.max(most(values), from + 0.01)
+      model.setColors(heatColors(values, from, app.heatMost))
+    }
   }
   app.changed()
   app.stage.draw()
@@ -234,6 +242,7 @@ export function refreshLook() {
     model.setShading(app.shading)
     if (model !== app.result) model.setColors(app.shading === 'colour' ? model.colors : null)
   }
+  painting.show()
   void app.attempt(paintHeat)
   app.stage.draw()
 }
@@ -245,6 +254,7 @@ export function flyInResult(at: Vec3) {
 }
 
 export function wire() {
+  app.store.subscribe(() => painting.show())
   app.stage.animate = animate
   app.jobDone = (job) => void app.attempt(() => done(job))
   app.live = () => void showLive()

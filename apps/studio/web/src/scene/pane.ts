@@ -11,7 +11,7 @@ export interface Hit {
 
 export interface PaneEvents {
   click?: (hit: Hit | null, pin: string | null) => void
-  dragStart?: (pin: string) => boolean // may this marker be dragged?
+  dragStart?: (pin: string | null, hit: Hit | null) => boolean // is this drag more than a turn of the view?
   drag?: (hit: Hit) => void
   dragEnd?: () => void
   hover?: (pin: string | null) => void
@@ -151,7 +151,7 @@ export class Pane {
     let last: [number, number] = start
     let moved = false
     const pin = event.button === 0 ? this.pinAt(...start) : null
-    const dragging = pin !== null && (this.events.dragStart?.(pin) ?? false)
+    const dragging = event.button === 0 && !event.shiftKey && (this.events.dragStart?.(pin, this.hit(...start)) ?? false)
     element.setPointerCapture(event.pointerId)
     event.preventDefault()
 
@@ -175,7 +175,7 @@ export class Pane {
       element.removeEventListener('pointermove', onMove)
       element.removeEventListener('pointerup', onUp)
       element.removeEventListener('pointercancel', onUp)
-      if (dragging && moved) this.events.dragEnd?.()
+      if (dragging) this.events.dragEnd?.()
       if (!moved && event.button === 0 && e.type === 'pointerup') this.events.click?.(this.hit(...start), pin)
     }
     element.addEventListener('pointermove', onMove)

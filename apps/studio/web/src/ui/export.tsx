@@ -9,6 +9,7 @@ const kinds: [string, string, string][] = [
   ['morph.glb', 'GLB', 'A playable glTF for Blender, games and viewers'],
   ['morph.html', 'HTML', 'One page that plays the morph; needs no network'],
   ['morph.png', 'PNG', 'A contact sheet: source, target and shapes between'],
+  ['morph.apng', 'Animated PNG', 'A picture that moves, for pages and slides'],
   ['fitted.ply', 'Fitted mesh (PLY)', "The source's mesh on the target"],
   ['fitted.obj', 'Fitted mesh (OBJ)', "The source's mesh on the target, with its UVs"],
   ['frame_####.obj', 'OBJ sequence', 'A numbered mesh a frame'],
@@ -36,7 +37,7 @@ export function ExportPanel() {
             </span>
           </label>
         ))}
-        {chosen.some((name) => name.includes('#')) && (
+        {chosen.some((name) => name.includes('#') || name.endsWith('.apng')) && (
           <label class="inline">
             Frames, both ends included
             <input type="number" min={2} max={10000} value={frames} onChange={(e) => setFrames(e.currentTarget.valueAsNumber || 25)} />

@@ -34,16 +34,20 @@ function Places({ title, list }: { title: string; list: { text: string; at: Vec3
 
 export function HeatLegend() {
   if (app.heat === 'none') return null
-  const stretch = app.heat === 'stretch'
+  const [from, to, unit, name] = {
+    distance: ['0', figure(app.heatMost), ' %', 'distance to the target'],
+    stretch: ['1', figure(app.heatMost), '', 'stretch'],
+    trust: ['1', '0', '', 'trust: is there something on the target that answers to it'],
+  }[app.heat]
   return (
     <div class="legend">
-      <span>{stretch ? '1' : '0'}</span>
+      <span>{from}</span>
       <i style={{ background: heatGradient }} />
       <span>
-        {figure(app.heatMost)}
-        {stretch ? '' : ' %'}
+        {to}
+        {unit}
       </span>
-      <em>{stretch ? 'stretch' : 'distance to the target'}</em>
+      <em>{name}</em>
     </div>
   )
 }
@@ -64,6 +68,7 @@ function Outcome({ fit }: { fit: FitSummary }) {
         of={[
           ['distance', 'Distance'],
           ['stretch', 'Stretch'],
+          ['trust', 'Trust'],
           ['none', 'Plain'],
         ]}
         onChange={chooseHeat}

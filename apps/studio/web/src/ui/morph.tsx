@@ -2,6 +2,8 @@
 import { useEffect, useRef } from 'preact/hooks'
 import { api } from '../api'
 import { app } from '../app'
+import * as painting from '../painting'
+import { heatGradient } from '../scene/heat'
 import { onTick, paths, play, player, seek, startMorph, stopComparing, type Player } from '../work'
 import { Button, figure, JobBar, OptionForm, Section, useApp } from './parts'
 
@@ -26,6 +28,7 @@ export function MorphPanel() {
           <summary>More options</summary>
           <OptionForm of="morph" rows={rows.filter((row) => row.name !== 'method')} />
         </details>
+        <Timing />
         {running ? (
           <>
             <JobBar kind="morph" />
@@ -75,6 +78,53 @@ export function MorphPanel() {
         </Button>
       )}
     </>
+  )
+}
+
+// When each part moves: a brush for the source.
+function Timing() {
+  const { brush } = app
+  const { dabs } = app.store.document.timing
+  const number = (label: string, value: number, least: number, most: number, set: (value: number) => void) => (
+    <label class="inline">
+      {label}
+      <input
+        type="range"
+        min={least}
+        max={most}
+        step={0.01}
+        value={value}
+        onInput={(e) => set(e.currentTarget.valueAsNumber)}
+      />
+      <output>{value.toFixed(2)}</output>
+    </label>
+  )
+  return (
+    <details class="timing">
+      <summary>Timing by region{dabs.length > 0 ? ' (painted)' : ''}</summary>
+      <p class="hint">
+        Paint on the source what is to move in a part of the time only; what is not painted moves all the time. Then morph again.
+      </p>
+      {number('Starts at', brush.start, 0, 0.95, (start) => painting.change({ start, end: Math.max(brush.end, start + 0.05) }))}
+      {number('Ends at', brush.end, 0.05, 1, (end) => painting.change({ end, start: Math.min(brush.start, end - 0.05) }))}
+      {number('Brush', brush.radius, 0.01, 0.3, (radius) => painting.change({ radius }))}
+      <div class="row">
+        <Button small pressed={brush.on} disabled={app.readOnly} onClick={() => painting.change({ on: !brush.on })} keys="B">
+          Paint
+        </Button>
+        <Button small disabled={dabs.length === 0 || app.readOnly} onClick={painting.clear}>
+          Clear
+        </Button>
+      </div>
+      {brush.on && (
+        <div class="legend">
+          <span>0</span>
+          <i style={{ background: heatGradient }} />
+          <span>1</span>
+          <em>starts at</em>
+        </div>
+      )}
+    </details>
   )
 }
 

@@ -1,0 +1,35 @@
+#include "meshtween/app/film.h"
+
+#include "meshtween/core/error.h"
+
+#include <fmt/format.h>
+
+namespace meshtween {
+
+Film::Film(const Mesh& mesh, const std::vector<Points>& examples, int size) {
+    if (examples.empty()) throw Error(ErrorKind::argument, "a film needs at least one shape");
+    if (size < 16 || size > 8192)
+        throw Error(ErrorKind::argument, fmt::format("a picture of {} pixels: 16 to 8192 can be drawn", size));
+    Point low = examples.front().colwise().minCoeff(), high = examples.front().colwise().maxCoeff();
+    for (const Points& p : examples) {
+        low = low.cwiseMin(p.colwise().minCoeff());
+        high = high.cwiseMax(p.colwise().maxCoeff());
+    }
+    origin_ = {(low[0] + high[0]) / 2, low[1], (low[2] + high[2]) / 2};
+    std::vector<Shape> shapes;
+    for (const Points& p : examples) shapes.push_back(placed(p, mesh.triangles));
+    layout_ = lay_out(shapes, {.tile = size, .columns = 1});
+}
+
+Shape Film::placed(const Points& positions, const Triangles& triangles) const {
+    return {positions.rowwise() - origin_, triangles, origin_, 1};
+}
+
+Image Film::frame(const Mesh& mesh) const {
+    const int height = layout_.height + layout_.caption;
+    Canvas canvas = backdrop(layout_.width, height);
+    draw_shape(canvas, layout_.width, 0, 0, mesh, placed(mesh.positions, mesh.triangles), layout_);
+    return developed(canvas, layout_.width, height);
+}
+
+} // namespace meshtween

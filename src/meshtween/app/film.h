@@ -1,0 +1,28 @@
+// Pictures of one shape that moves, all from one camera.
+#pragma once
+
+#include "meshtween/app/drawing.h"
+
+namespace meshtween {
+
+// A film's stage: where the camera stands so that all of the motion is in the picture.
+class Film {
+public:
+    // `examples`: positions during the motion, enough of them that it goes nowhere else, of one mesh. Throws
+    // Error(argument) for none and for a size out of range.
+    Film(const Mesh& mesh, const std::vector<Points>& examples, int size = 420);
+
+    // The picture of the mesh at these positions: `size` pixels on the longer side.
+    Image frame(const Mesh& mesh) const;
+
+private:
+    Shape placed(const Points& positions, const Triangles& triangles) const;
+
+    Point origin_{0, 0, 0};
+    Layout layout_;
+};
+
+// An animated PNG that repeats for ever, through write_whole. All frames of one size; throws Error(argument) for none.
+void write_animated_png(const std::vector<Image>& frames, double seconds_per_frame, const std::filesystem::path& path);
+
+} // namespace meshtween
