@@ -35,7 +35,7 @@ void add_fit_flags(CLI::App& verb, FitFlags& flags) {
                     "How to fit: surface (a thin shell posed by the markers, then drawn onto the "
                     "surface from coarse to fine) or paper (warp, then smooth and project)")
         ->transform(CLI::CheckedTransformer(methods))
-        ->default_str("surface");
+        ->option_text("surface|paper [surface]");
     verb.add_option("--marker-weight", flags.options.marker_weight,
                     "How hard markers pull in the surface fit beside the usual 1: they yield where it is under 0.0001 "
                     "or so; 0 lets them say the pose only")

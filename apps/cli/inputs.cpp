@@ -10,6 +10,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+
 using namespace meshtween;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -67,8 +70,19 @@ MarkerPairs load_markers(const std::vector<std::string>& files, const Mesh& sour
 std::vector<Output> load_outputs(const std::vector<std::string>& names) {
     std::vector<Output> outputs;
     outputs.reserve(names.size());
-    for (const std::string& name : names) outputs.push_back(output(name));
+    for (const std::string& name : names) {
+        if (std::find(names.begin(), names.end(), name) - names.begin() != std::ssize(outputs))
+            throw Error(ErrorKind::argument, fmt::format("-o {} is given twice", name));
+        outputs.push_back(output(name));
+    }
     return outputs;
+}
+
+std::string title_of(const std::vector<std::string>& meshes) {
+    std::string title;
+    for (const std::string& mesh : meshes)
+        title += (title.empty() ? "" : " to ") + std::filesystem::path(mesh).stem().string();
+    return title;
 }
 
 Json new_report(const std::string& verb) {

@@ -28,6 +28,7 @@ std::vector<meshtween::Mesh> load_one_connectivity(const std::vector<std::string
 meshtween::MarkerPairs load_markers(const std::vector<std::string>& files, const meshtween::Mesh& source,
                                     const meshtween::Mesh& target, Console& console);
 std::vector<meshtween::Output> load_outputs(const std::vector<std::string>& names);
+std::string title_of(const std::vector<std::string>& meshes); // the files' names without folders: "a to b"
 
 // The report's first lines; and its last, with the file written where one is named.
 meshtween::Json new_report(const std::string& verb);

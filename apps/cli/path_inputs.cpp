@@ -152,6 +152,7 @@ void write_whole_path(const PathWork& work, const PathFlags& flags, const KeyOpt
     playable.frames = flags.frames;
     playable.order = frame_order(flags);
     playable.before = work.before;
+    playable.ends_before = work.ends_before;
     written = write_outputs(playable, work.outputs, part_of(progress, 0.8, 1));
 }
 

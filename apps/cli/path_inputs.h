@@ -33,7 +33,8 @@ struct PathWork {
     std::vector<meshtween::Output> outputs;
     std::vector<meshtween::Tile> before; // on a contact sheet
     std::string title;
-    bool measured = false; // a report is wanted: measure the path frame by frame
+    bool measured = false;    // a report is wanted: measure the path frame by frame
+    bool ends_before = false; // the tiles before show both ends
 };
 
 // Writes the path, or one shape of it with --at, and adds to the report.

@@ -33,6 +33,7 @@ void add_fit(CLI::App& app, const Common& common) {
         Console console(common.quiet);
         Json report = new_report("fit");
         const auto outputs = load_outputs(a->outputs);
+        check_still(outputs);
         check_fit_files(a->fit);
         const Mesh source = load_mesh(a->source, console), target = load_mesh(a->target, console);
         report["source"] = describe(source), report["target"] = describe(target);

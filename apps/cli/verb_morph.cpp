@@ -27,6 +27,7 @@ Points side(const MarkerPairs& markers, bool source) {
 // Source to target: one fit.
 void morph_two(const Arguments& a, std::uint32_t seed, Console& console, Json& report) {
     const auto outputs = load_outputs(a.outputs);
+    a.path.at.empty() ? check_playable(outputs) : check_still(outputs);
     check_fit_files(a.fit);
     const Mesh source = load_mesh(a.source, console), target = load_mesh(a.target, console);
     report["source"] = describe(source), report["target"] = describe(target);
@@ -41,8 +42,9 @@ void morph_two(const Arguments& a, std::uint32_t seed, Console& console, Json& r
                 {source.positions, fitted.mesh.positions},
                 outputs,
                 tiles,
-                a.source + " to " + a.target,
-                !a.report.empty()},
+                title_of({a.source, a.target}),
+                !a.report.empty(),
+                true},
                a.path, part_of(progress, 0.6, 1), console, report);
     write_fit_files(fitted, a.fit, console, report);
 }
@@ -50,6 +52,7 @@ void morph_two(const Arguments& a, std::uint32_t seed, Console& console, Json& r
 // One template on both shapes (the paper's Fig. 12), then from one fit to the other.
 void morph_through_template(const Arguments& a, std::uint32_t seed, Console& console, Json& report) {
     const auto outputs = load_outputs(a.outputs);
+    a.path.at.empty() ? check_playable(outputs) : check_still(outputs);
     const Mesh common = load_mesh(a.template_mesh, console);
     const Mesh first = load_mesh(a.source, console), second = load_mesh(a.target, console);
     report["template"] = describe(common), report["source"] = describe(first), report["target"] = describe(second);
@@ -66,7 +69,7 @@ void morph_through_template(const Arguments& a, std::uint32_t seed, Console& con
                 {from.mesh.positions, to.mesh.positions},
                 outputs,
                 tiles,
-                a.source + " to " + a.target,
+                title_of({a.source, a.target}),
                 !a.report.empty()},
                a.path, part_of(progress, 0.7, 1), console, report);
 }

@@ -21,7 +21,8 @@ void add_studio(CLI::App& app, const Common& common) {
     verb->add_option("--port", options->port, "Port to listen on; 0 takes a free one")
         ->check(CLI::Range(0, 65535))
         ->capture_default_str();
-    verb->add_flag("!--no-browser", options->browser, "Print the address without opening it");
+    verb->add_flag_callback(
+        "--no-browser", [options] { options->browser = false; }, "Print the address without opening it");
     verb->add_option("--project", options->project,
                      "Project file to work on; by default one that belongs to the two meshes, in the state folder");
     verb->callback([options, &common] {

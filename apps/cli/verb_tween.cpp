@@ -49,7 +49,7 @@ void add_tween(CLI::App& app, const Common& common) {
             work.shapes.push_back(mesh.positions);
         }
         work.mesh = meshes.front();
-        work.title = fmt::format("{}", fmt::join(a->meshes, " to "));
+        work.title = title_of(a->meshes);
         work.measured = !a->report.empty();
         write_path(work, a->path, console.progress(), console, report);
         finish_report(report, a->report, start);

@@ -6,6 +6,7 @@
 #include "jobs.h"
 #include "meshes.h"
 #include "project.h"
+#include "suggest.h"
 
 #include "meshtween/morph/curve.h"
 
@@ -77,6 +78,7 @@ private:
     void drop_fit_locked();
     std::shared_ptr<const OpenMesh>& slot(Side side) { return side == Side::source ? open_.source : open_.target; }
     std::filesystem::path fitted_file() const;
+    Pose known_pose(const Open& open) const; // worked out once a pair of meshes
     Json run_fit(const Open& open, const std::vector<PlacedMarker>& markers, FitOptions options,
                  const Progress& progress);
     std::function<void(const Points&)> show_live();
@@ -91,6 +93,9 @@ private:
     std::map<std::string, std::shared_ptr<const PlayedPath>> paths_; // by the hash of what was asked
     std::shared_ptr<const Points> live_;
     Frame live_frame_;
+    mutable std::mutex pose_mutex_; // over these two
+    mutable Pose pose_;
+    mutable std::string pose_of_; // the hashes of the meshes that it is of
     std::vector<std::string> notes_;
     Jobs jobs_; // last: ends first
 };

@@ -179,6 +179,7 @@ void Session::start_export(const Json& request) {
             playable.mesh.positions = playable.path.nodes.front();
             playable.frames = frames;
             playable.play.title = open.source->path.stem().string() + " to " + open.target->path.stem().string();
+            playable.ends_before = true;
             playable.before = {{"source", source, side_of_pairs(pairs, Side::source)},
                                {"target", open.target->mesh, side_of_pairs(pairs, Side::target)},
                                {"source's mesh on the target", fitted->mesh, {}}};

@@ -83,6 +83,16 @@ std::string Session::export_markers(const std::string& extension) const {
     return read_whole(file);
 }
 
+Pose Session::known_pose(const Open& open) const {
+    const std::lock_guard lock(pose_mutex_);
+    const std::string meshes = open.source->hash + open.target->hash;
+    if (pose_of_ != meshes) {
+        pose_ = pose_of(*open.source, *open.target);
+        pose_of_ = meshes;
+    }
+    return pose_;
+}
+
 Json Session::guesses(Side from, const Json& points) const {
     const Open open = both();
     std::vector<MarkerPair> pairs;
@@ -92,6 +102,7 @@ Json Session::guesses(Side from, const Json& points) const {
     }
     if (!points.is_array() || points.size() > 5000)
         throw Error(ErrorKind::argument, "points must be a list of at most 5000");
+    const Pose pose = pairs.size() < 3 ? known_pose(open) : Pose();
     Json answers = Json::array();
     for (const Json& point : points) {
         if (!point.is_array() || point.size() != 3 || !point[0].is_number() || !point[1].is_number() ||
@@ -99,9 +110,7 @@ Json Session::guesses(Side from, const Json& points) const {
             throw Error(ErrorKind::argument, "a point is three numbers");
         const Point at(point[0].get<double>(), point[1].get<double>(), point[2].get<double>());
         if (!at.allFinite()) throw Error(ErrorKind::argument, "a point is three finite numbers");
-        const bool forward = from == Side::source;
-        answers.push_back(
-            list(guess(forward ? *open.source : *open.target, forward ? *open.target : *open.source, pairs, from, at)));
+        answers.push_back(list(guess(from == Side::source ? *open.target : *open.source, pose, pairs, from, at)));
     }
     return answers;
 }

@@ -36,7 +36,7 @@ fs::path choose_project(const StudioOptions& options) {
 class ProjectLock {
 public:
     explicit ProjectLock(const fs::path& project) {
-        const fs::path file = project.parent_path() / ("." + project.filename().string() + ".lock");
+        const fs::path file = project.parent_path() / fmt::format(".{}.lock", project.filename().string());
         descriptor_ = ::open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0600);
         if (descriptor_ < 0)
             throw Error(ErrorKind::file, fmt::format("{}: cannot write here", project.parent_path().string()));
@@ -69,12 +69,19 @@ void open_browser(const std::string& address) {
 } // namespace
 
 void run_studio(const StudioOptions& options) {
+    for (const fs::path& mesh : options.meshes)
+        if (!fs::is_regular_file(mesh))
+            throw Error(ErrorKind::file, fmt::format("{}: there is no such file to open", mesh.string()));
     const fs::path project = fs::absolute(choose_project(options));
     std::error_code failure;
     fs::create_directories(project.parent_path(), failure);
     const ProjectLock lock(project);
     Events events;
     Session session(project, options.meshes, events);
+    if (const Json state = session.state();
+        !options.meshes.empty() && (state["meshes"]["source"].is_null() || state["meshes"]["target"].is_null()))
+        throw Error(ErrorKind::file,
+                    state["notes"].empty() ? "the meshes could not be opened" : state["notes"][0].get<std::string>());
     if (options.project.empty()) write_whole(last_project_note(), project.string());
     Server server(session, events, options.port, options.most_upload);
     std::thread serving([&] { server.listen(); });

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace meshtween::studio {
@@ -21,30 +22,58 @@ double distance_to_markers(const Point& at, const std::vector<PlacedMarker>& mar
     return least;
 }
 
-Point warped(const OpenMesh& from, const OpenMesh& to, const std::vector<MarkerPair>& pairs, Side side,
-             const Point& point) {
-    if (pairs.size() >= 3) {
-        const auto count = static_cast<Eigen::Index>(pairs.size());
-        Points start(count, 3), end(count, 3);
-        for (Eigen::Index i = 0; i < count; ++i) {
-            const MarkerPair& pair = pairs[std::size_t(i)];
-            start.row(i) = side == Side::source ? pair.source : pair.target;
-            end.row(i) = side == Side::source ? pair.target : pair.source;
-        }
-        try {
-            const Points one = point;
+constexpr std::size_t enough_to_warp = 6; // fewer tell a turn and a size; between them a warp would run wild
+
+Points side_of_pairs(const std::vector<MarkerPair>& pairs, Side side) {
+    Points points(std::ssize(pairs), 3);
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+        points.row(Eigen::Index(i)) = side == Side::source ? pairs[i].source : pairs[i].target;
+    return points;
+}
+
+Point carried(const Pose& pose, const std::vector<MarkerPair>& pairs, Side from, const Point& point) {
+    const Points one = point;
+    const Points start = side_of_pairs(pairs, from),
+                 end = side_of_pairs(pairs, from == Side::source ? Side::target : Side::source);
+    if (pairs.size() >= enough_to_warp) try {
             return warp(start, end)(one).row(0);
         } catch (const Error&) { // markers on one line or on one spot say too little for a warp
         }
-    }
-    return (point - from.frame.centre) / from.frame.scale * to.frame.scale + to.frame.centre;
+    if (pairs.size() >= 3) return align(start, end)(one).row(0);
+    return (from == Side::source ? pose.forward : pose.back)(one).row(0);
+}
+
+// The mean distance of some vertices of `from`, once moved, to `to`.
+double distance(const OpenMesh& from, const Similarity& moved, const OpenMesh& to) {
+    const Eigen::Index step = std::max<Eigen::Index>(1, from.mesh.positions.rows() / 500);
+    double sum = 0;
+    for (Eigen::Index i = 0; i < from.mesh.positions.rows(); i += step)
+        sum += std::sqrt(to.index.closest(Point(moved(from.mesh.positions.row(i)).row(0))).squared_distance);
+    return sum * double(step) / double(from.mesh.positions.rows()) / to.frame.scale;
 }
 
 } // namespace
 
-Point guess(const OpenMesh& from, const OpenMesh& to, const std::vector<MarkerPair>& pairs, Side side,
-            const Point& point) {
-    return to.index.closest(warped(from, to, pairs, side, point)).position;
+Pose pose_of(const OpenMesh& source, const OpenMesh& target) {
+    const auto box_to_box = [](const OpenMesh& from, const OpenMesh& to) {
+        Similarity s;
+        s.scale = to.frame.scale / from.frame.scale;
+        s.translation = to.frame.centre - s.scale * from.frame.centre;
+        return s;
+    };
+    const Mesh &a = source.mesh, &b = target.mesh;
+    const Pose upright{box_to_box(source, target), box_to_box(target, source)},
+        turned{align_axes(a.positions, a.triangles, b.positions, b.triangles),
+               align_axes(b.positions, b.triangles, a.positions, a.triangles)};
+    const auto away = [&](const Pose& pose) {
+        return distance(source, pose.forward, target) + distance(target, pose.back, source);
+    };
+    constexpr double clearly = 0.7; // models mostly come upright, and round ones have no axes to speak of
+    return away(turned) < clearly * away(upright) ? turned : upright;
+}
+
+Point guess(const OpenMesh& to, const Pose& pose, const std::vector<MarkerPair>& pairs, Side from, const Point& point) {
+    return to.index.closest(carried(pose, pairs, from, point)).position;
 }
 
 Json next_places(const OpenMesh& source, const std::vector<PlacedMarker>& markers, const Json& fit) {

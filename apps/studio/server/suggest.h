@@ -3,12 +3,21 @@
 
 #include "meshes.h"
 
+#include "meshtween/fit/align.h"
+
 namespace meshtween::studio {
 
-// Where `point` on the one model probably lies on the other: the warp through the complete pairs (with fewer than three
-// of them, the boxes laid onto each other), then the closest point of the surface.
-Point guess(const OpenMesh& from, const OpenMesh& to, const std::vector<MarkerPair>& pairs, Side side,
-            const Point& point);
+// How the models lie to each other before there are markers: their boxes laid onto each other, or their principal axes
+// where that brings the surfaces clearly closer.
+struct Pose {
+    Similarity forward, back; // from the source to the target, and from the target to the source
+};
+Pose pose_of(const OpenMesh& source, const OpenMesh& target);
+
+// Where `point` of the model `from` probably lies on the other one, `to`: carried by the warp through the complete
+// pairs, by their similarity where they are few, by the pose where they are fewer than three; then the closest point of
+// the surface.
+Point guess(const OpenMesh& to, const Pose& pose, const std::vector<MarkerPair>& pairs, Side from, const Point& point);
 
 // Places on the source, the most useful first, with a reason each: [{at, why}, ...]. After a fit the worst places of it
 // that have no marker near; before one, the vertices furthest from all markers.

@@ -90,6 +90,7 @@ bool write_sheet(const Playable& playable, const std::filesystem::path& path, co
     for (std::size_t p = 0; p + 1 < keys.size(); ++p)
         for (int i = p == 0 ? 0 : 1; i <= parts; ++i) {
             const double u = keys[p] + (keys[p + 1] - keys[p]) * i / parts;
+            if (playable.ends_before && (u == 0 || u == 1)) continue;
             tiles.push_back({fmt::format("u = {:.2f}", u), with_positions(playable.mesh, playable.path.at(u)), {}});
         }
     return write_tiles(tiles, path, progress);
@@ -106,16 +107,36 @@ void write_plot(const Playable& playable, const std::filesystem::path& path, con
     if (!written.cancelled) write_whole(path, path_plot({{playable.play.title, quality}}));
 }
 
-void refuse_one_mesh(const std::vector<Output>& outputs) {
-    for (const Output& out : outputs)
-        if (out.kind == OutputKind::mesh)
-            throw Error(ErrorKind::argument,
-                        fmt::format("-o {0} is one mesh: give --at U to say which, or write a sequence, such as {1}",
-                                    out.path.string(),
-                                    (out.path.stem().string() + "_####" + out.path.extension().string())));
+// The name of a sequence for that of one mesh; what printf would fill in becomes #s.
+std::string as_sequence(const std::filesystem::path& path) {
+    std::string stem = path.stem().string();
+    if (const auto at = stem.find('%'); at != std::string::npos)
+        stem.replace(at, std::min(stem.find('d', at), stem.size() - 1) - at + 1, "####");
+    else
+        stem += "_####";
+    return stem + path.extension().string();
 }
 
 } // namespace
+
+void check_playable(const std::vector<Output>& outputs) {
+    for (const Output& out : outputs)
+        if (out.kind == OutputKind::mesh)
+            throw Error(ErrorKind::argument,
+                        fmt::format("-o {} is one mesh: give --at U to say which, or write a sequence, such as {}",
+                                    out.path.string(), as_sequence(out.path)));
+}
+
+void check_still(const std::vector<Output>& outputs) {
+    for (const auto& [kind, path] : outputs)
+        if (kind == OutputKind::html || kind == OutputKind::sequence || kind == OutputKind::plot ||
+            kind == OutputKind::film)
+            throw Error(
+                ErrorKind::argument,
+                fmt::format(
+                    "-o {} shows a whole morph, but here is one shape; use .obj, .ply, .stl, .off, .glb or .png",
+                    path.string()));
+}
 
 Output output(const std::string& name) {
     const std::filesystem::path path(name);
@@ -161,7 +182,7 @@ std::vector<double> frame_times(int frames, FrameOrder order) {
 }
 
 Written write_outputs(const Playable& playable, const std::vector<Output>& outputs, const Progress& progress) {
-    refuse_one_mesh(outputs);
+    check_playable(outputs);
     Written written;
     std::string glb;
     if (std::any_of(outputs.begin(), outputs.end(),
@@ -188,14 +209,7 @@ Written write_outputs(const Playable& playable, const std::vector<Output>& outpu
 
 Written write_still(const Mesh& mesh, const std::string& caption, const std::vector<Tile>& before,
                     const std::vector<Output>& outputs, const Progress& progress) {
-    for (const auto& [kind, path] : outputs)
-        if (kind == OutputKind::html || kind == OutputKind::sequence || kind == OutputKind::plot ||
-            kind == OutputKind::film)
-            throw Error(
-                ErrorKind::argument,
-                fmt::format(
-                    "-o {} shows a whole morph, but here is one shape; use .obj, .ply, .stl, .off, .glb or .png",
-                    path.string()));
+    check_still(outputs);
     Written written;
     for (const auto& [kind, path] : outputs) {
         if (kind == OutputKind::sheet) {

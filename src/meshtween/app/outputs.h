@@ -31,6 +31,11 @@ struct Output {
 // exist.
 Output output(const std::string& name);
 
+// Whether these can show a whole morph, or one shape: so that nobody waits for a fit to hear that they cannot. Throws
+// Error(argument) naming the output and what to write instead.
+void check_playable(const std::vector<Output>& outputs);
+void check_still(const std::vector<Output>& outputs);
+
 // The file's name for one frame of a sequence: the run of #s becomes the number with leading zeros.
 std::filesystem::path numbered(const std::filesystem::path& pattern, int number);
 
@@ -48,6 +53,7 @@ struct Playable {
     int frames = 11; // of a sequence or a film, from the first shape to the last
     FrameOrder order = FrameOrder::there;
     std::vector<Tile> before; // tiles that a contact sheet shows before the in-betweens
+    bool ends_before = false; // both ends are among them
     PathQuality quality;      // for a plot; measured where it is empty and a plot is wanted
 };
 

@@ -52,6 +52,9 @@ export function HeatLegend() {
   )
 }
 
+// The lists hold the first of what there is.
+const counted = (all: number, listed: number, what: string) => (all > listed ? `${all} ${what}, the first ${listed}` : `${listed} ${what}`)
+
 function Outcome({ fit }: { fit: FitSummary }) {
   const { quality } = fit
   return (
@@ -73,8 +76,8 @@ function Outcome({ fit }: { fit: FitSummary }) {
         ]}
         onChange={chooseHeat}
       />
-      <Places title={`${fit.flips.length} flipped faces`} list={fit.flips.length ? fit.flips.map((flip) => ({ text: `face ${flip.face}`, at: flip.at })) : []} />
-      <Places title={`${fit.cuts.length} cuts`} list={fit.cuts.map((cut) => ({ text: `${cut.faces[0]} × ${cut.faces[1]}`, at: cut.at }))} />
+      <Places title={counted(fit.quality.flipped_faces, fit.flips.length, 'flipped faces')} list={fit.flips.length ? fit.flips.map((flip) => ({ text: `face ${flip.face}`, at: flip.at })) : []} />
+      <Places title={counted(fit.quality.self_intersections, fit.cuts.length, 'cuts')} list={fit.cuts.map((cut) => ({ text: `${cut.faces[0]} × ${cut.faces[1]}`, at: cut.at }))} />
       <Places title="Worst places" list={fit.worst.map((place) => ({ text: `vertex ${place.vertex}: ${figure(place.distance)} %`, at: place.fitted }))} />
       {fit.notes?.map((note) => (
         <small class="warn" key={note}>

@@ -4,7 +4,7 @@ import { app } from '../app'
 import { find, isComplete } from '../edits'
 import * as placing from '../placing'
 import type { Marker } from '../types'
-import { Button, chooseFiles, figure, Section } from './parts'
+import { Button, chooseFiles, Field, figure, Section } from './parts'
 import { importMarkers } from './open'
 import { download } from '../api'
 
@@ -27,14 +27,13 @@ function Row({ marker, number }: { marker: Marker; number: number }) {
     <tr ref={row} class={chosen ? 'chosen' : ''} aria-selected={chosen} data-marker={marker.id} onClick={() => placing.select(marker.id)} onDblClick={() => placing.flyToMarker(marker.id)}>
       <td class="number">{number}</td>
       <td class="name">
-        <input
+        <Field
           aria-label={`name of marker ${number}`}
           value={marker.name}
           maxLength={60}
           disabled={app.readOnly}
           onFocus={() => app.selected !== marker.id && placing.select(marker.id)}
-          onChange={(e) => placing.change(marker, `rename ${marker.name}`, { name: e.currentTarget.value })}
-          onKeyDown={(e) => e.key === 'Enter' && e.currentTarget.blur()}
+          commit={(name) => placing.change(marker, `rename ${marker.name}`, { name })}
         />
       </td>
       <td>

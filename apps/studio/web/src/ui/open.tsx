@@ -23,7 +23,7 @@ export const importMarkers = (files: File[]) =>
     const { pairs, notes } = await api.importMarkers(files.slice(0, 2))
     if (pairs.length) app.store.edit(`import ${pairs.length} markers`, (d) => append(d, pairs))
     for (const note of notes) app.toast(note, true)
-    app.toast(`${pairs.length} markers read from ${files.map((file) => file.name).join(' and ')}.`)
+    app.toast(`${pairs.length} markers added from ${files.map((file) => file.name).join(' and ')}.`)
     app.set({ step: 'markers' })
   }, 'Reading markers')
 

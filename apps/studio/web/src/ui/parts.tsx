@@ -1,6 +1,6 @@
 // Small parts that all panels use.
-import type { ComponentChildren } from 'preact'
-import { useEffect, useReducer } from 'preact/hooks'
+import type { ComponentChildren, JSX } from 'preact'
+import { useEffect, useReducer, useState } from 'preact/hooks'
 import { app } from '../app'
 import { setOption } from '../edits'
 import type { OptionRow } from '../types'
@@ -67,6 +67,23 @@ export function Choice<T extends string>(props: { label: string; value: T; of: [
   )
 }
 
+// A field whose text is the person's own until it is committed: the page may draw itself anew meanwhile.
+export function Field({ value, commit, ...rest }: { value: string | number; commit: (text: string) => void } & Omit<JSX.InputHTMLAttributes<HTMLInputElement>, 'value'>) {
+  const [draft, setDraft] = useState<string | null>(null)
+  return (
+    <input
+      {...rest}
+      value={draft ?? value}
+      onInput={(e) => setDraft(e.currentTarget.value)}
+      onKeyDown={(e) => e.key === 'Enter' && e.currentTarget.blur()}
+      onBlur={(e) => {
+        if (e.currentTarget.value !== String(value)) commit(e.currentTarget.value)
+        setDraft(null)
+      }}
+    />
+  )
+}
+
 // Options as the program describes them, each with its one line of explanation.
 export function OptionForm({ of, rows }: { of: 'fit' | 'morph'; rows: OptionRow[] }) {
   const { store } = app
@@ -87,20 +104,17 @@ export function OptionForm({ of, rows }: { of: 'fit' | 'morph'; rows: OptionRow[
                 ))}
               </select>
             ) : (
-              <input
+              <Field
                 type="number"
                 step="any"
                 min={row.min}
                 max={row.max}
                 value={value}
                 disabled={app.readOnly}
-                onChange={(e) => {
-                  const next = e.currentTarget.valueAsNumber
+                commit={(text) => {
+                  const next = text === '' ? NaN : Number(text)
                   if (next >= row.min! && next <= row.max!) set(next)
-                  else {
-                    app.toast(`${row.label} must lie between ${row.min} and ${row.max}.`, true)
-                    e.currentTarget.value = String(value)
-                  }
+                  else app.toast(`${row.label} must lie between ${row.min} and ${row.max}.`, true)
                 }}
               />
             )}

@@ -13,7 +13,7 @@ import { Vector3 } from 'three'
 const names: Record<PaneName, string> = { source: 'Source', target: 'Target', result: 'Result', compare: 'Compared' }
 
 function caption(name: PaneName): string {
-  if (name === 'result') return paths.main ? String(app.store.document.options.morph.method ?? app.state?.schema.morph[0]?.default) : app.result ? (app.running ? 'fitting' : 'fitted') : ''
+  if (name === 'result') return paths.main ? String(app.store.document.options.morph.method ?? app.state?.schema.morph[0]?.default) : app.result ? (app.running ? 'fitting' : app.stale ? 'fitted before the markers changed' : 'fitted') : ''
   if (name === 'compare') return paths.compareMethod
   return app.info(name)?.name ?? ''
 }
