@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Fits and morphs every case of a data folder and writes the tables of docs/quality.md.
 
-    quality.py PROGRAM DATA [--ruler EVALUATE] [--only WORD] [--fit METHOD ...] [--write docs/quality.md]
+    quality.py PROGRAM DATA [--ruler EVALUATE] [--only WORD] [--fit METHOD ...] [--few] [--write docs/quality.md]
 
 A case is a folder with case.json, source.obj and target.obj; with markers.csv it is fitted, and with one connectivity on
 both sides every path is tried. All figures are the program's own (measure, and the report); with --ruler an independent
 program measures the same fits and the largest disagreement is told. Where a case has no truth, every third marker
-is held out of a second fit and scored. Needs nothing but Python's standard library.
+is held out of a second fit and scored (7 of an animal's 21). Cases of tools/peers.json get a table with the peers' figures
+beside ours; --few adds fits with few markers. Needs nothing but Python's standard library.
 """
 import argparse
 import csv
@@ -110,6 +111,88 @@ def fit_table(rows):
     return lines
 
 
+PEERS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "peers.json")
+COLUMNS = (("truth", "%.3f"), ("there", "%.3f"), ("back", "%.3f"), ("back99", "%.2f"), ("flips", "%d"), ("cuts", "%d"),
+           ("sd99", "%.3g"), ("seconds", "%.1f"), ("mb", "%.0f"))
+
+
+def our_figures(row, method):
+    q = row["quality"]
+    ours = {"system": "**meshtween, `--fit %s`**" % method, "there": q["fitted_to_target"]["mean"],
+            "back": q["target_to_fitted"]["mean"], "back99": q["target_to_fitted"]["p99"], "flips": q["flipped_faces"],
+            "cuts": q["self_intersections"], "sd99": q["symmetric_dirichlet"]["p99"], "seconds": row["fit"]["seconds"],
+            "mb": row["memory"]}
+    if "truth_error" in q:
+        ours["truth"] = q["truth_error"]["mean"]
+    return ours
+
+
+def peer_tables(ours, peers):
+    """For each case: ours and the peers', the best of each column in bold, and the columns where we are not it."""
+    lines = []
+    for case in sorted(set(ours) & set(peers["cases"])):
+        rows = ours[case] + peers["cases"][case]
+        # a small distortion is no merit where the target was not reached
+        best = {key: min((r[key] for r in rows if key in r and key != "sd99"), default=None) for key, _ in COLUMNS}
+        lines += ["", "**%s**" % case, "", "| system | " + " | ".join(key for key, _ in COLUMNS) + " |", "|---|" + "---|" * len(COLUMNS)]
+        for r in rows:
+            cells = ["–" if key not in r else ("**%s**" if r[key] == best[key] else "%s") % (form % r[key]) for key, form in COLUMNS]
+            lines.append("| %s | %s |" % (r["system"], " | ".join(cells)))
+        first = ours[case][0]
+        behind = ["%s (%s, %s)" % (key, form % best[key], next(r["system"] for r in rows if r.get(key) == best[key]))
+                  for key, form in COLUMNS if best[key] is not None and key in first and first[key] > best[key]]
+        lines += ["", "Behind the best in: %s." % ", ".join(behind) if behind else "The best in every column."]
+    return lines
+
+
+def spread_out(rows):
+    """Marker rows in the order of farthest-point sampling on the source, from the one farthest from their middle."""
+    points = [tuple(float(x) for x in r[1:4]) for r in rows]
+    middle = tuple(sum(p[k] for p in points) / len(points) for k in range(3))
+    square = lambda a, b: sum((x - y) ** 2 for x, y in zip(a, b))
+    order = [max(range(len(points)), key=lambda i: (square(points[i], middle), -i))]
+    nearest = [square(p, points[order[0]]) for p in points]
+    while len(order) < len(points):
+        order.append(max((i for i in range(len(points)) if i not in order), key=lambda i: (nearest[i], -i)))
+        nearest = [min(n, square(p, points[order[-1]])) for n, p in zip(nearest, points)]
+    return [rows[i] for i in order]
+
+
+def few_cell(program, case, folder, count):
+    """Mean error with so many markers: of all vertices where the truth is known, else of the markers left out."""
+    source, target = os.path.join(case, "source.obj"), os.path.join(case, "target.obj")
+    rows = rows_of(os.path.join(case, "markers.csv"))
+    order = spread_out(rows[1:])
+    names = {"few.csv": order[:count], "rest.csv": order[count:]}
+    for name, body in names.items():
+        with open(os.path.join(folder, name), "w", newline="") as f:
+            csv.writer(f).writerows(rows[:1] + body)
+    fitted, truth = os.path.join(folder, "few.obj"), os.path.join(case, "truth.csv")
+    done, _ = run([program, "fit", source, target, "--quiet", "-o", fitted] +
+                  (["--markers", os.path.join(folder, "few.csv")] if count else []))
+    if done.returncode != 0:
+        return "failed"
+    measure = [program, "measure", source, fitted, target, "--quiet"]
+    if os.path.exists(truth):
+        found = json.loads(run(measure + ["--truth", truth])[0].stdout)
+        return "%.3f / %.3f" % (found["truth_error"]["mean"], found["target_to_fitted"]["mean"])
+    if not names["rest.csv"]:
+        found = json.loads(run(measure)[0].stdout)
+        return "– / %.3f" % found["target_to_fitted"]["mean"]
+    found = json.loads(run(measure + ["--markers", os.path.join(folder, "rest.csv")])[0].stdout)
+    return "(%.2f) / %.3f" % (found["marker_error"]["mean"], found["target_to_fitted"]["mean"])
+
+
+def few_table(program, cases, folder, counts=(40, 20, 10, 5, 0)):
+    lines = ["| case | " + " | ".join("%d markers" % c for c in counts) + " |", "|---|" + "---|" * len(counts)]
+    for case in cases:
+        there_are = len(rows_of(os.path.join(case, "markers.csv"))) - 1
+        cells = [few_cell(program, case, folder, c) if c <= there_are else "–" for c in counts]
+        lines.append("| %s | %s |" % (os.path.basename(case), " | ".join(cells)))
+        print(lines[-1], file=sys.stderr)
+    return lines
+
+
 def same_connectivity(case):
     with open(os.path.join(case, "case.json")) as f:
         info = json.load(f)
@@ -143,6 +226,7 @@ def main():
     ap.add_argument("--only", default="", help="cases whose name holds this word")
     ap.add_argument("--fit", nargs="+", default=["paper"])
     ap.add_argument("--methods", nargs="+", default=["linear", "laplacian", "dual-as-printed", "dual", "rigid"])
+    ap.add_argument("--few", action="store_true", help="also fit with 40, 20, 10, 5 and 0 markers")
     ap.add_argument("--write", help="put the tables between the marks of this page")
     a = ap.parse_args()
     cases = sorted(os.path.join(a.data, d) for d in os.listdir(a.data)
@@ -150,6 +234,7 @@ def main():
     text = []
     with tempfile.TemporaryDirectory() as folder:
         fits = [c for c in cases if markers_of(c)]
+        beside_peers = {}
         for method in a.fit:
             rows = []
             for case in fits:
@@ -158,8 +243,19 @@ def main():
                 if a.ruler and "ruler" in rows[-1]:
                     worst, counts = disagreement(rows[-1])
                     print("  against the ruler: within %.2g, %s" % (worst, ", ".join(counts) or "all counts the same"), file=sys.stderr)
+                if "failed" not in rows[-1]:
+                    beside_peers.setdefault(rows[-1]["case"], []).append(our_figures(rows[-1], method))
             if rows:
                 text += ["", "### Fits, `--fit %s`" % method, ""] + fit_table(rows)
+        with open(PEERS) as f:
+            peers = json.load(f)
+        tables_beside = peer_tables(beside_peers, peers)
+        if tables_beside:
+            text += ["", "### Beside other systems", "", peers["origin"], "", "Columns: %s" % peers["units"]] + tables_beside
+        if a.few and fits:
+            text += ["", "### With fewer markers", "", "Mean error / back. The error is that of the vertices, or in brackets that "
+                     "of the markers left out. Markers are taken in the order of farthest-point sampling.", ""]
+            text += few_table(a.program, fits, folder)
         paths = [c for c in cases if same_connectivity(c)]
         if paths:
             text += ["", "### Paths at u = 0.5: volume / edge strain in %", ""] + path_table(a.program, paths, folder, a.methods)

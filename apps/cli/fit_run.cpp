@@ -3,6 +3,7 @@
 #include "meshtween/core/error.h"
 #include "meshtween/fit/markers.h"
 #include "meshtween/fit/quality.h"
+#include "meshtween/fit/refined_fit.h"
 #include "meshtween/io/mesh_io.h"
 
 #include <fmt/format.h>
@@ -25,6 +26,19 @@ CLI::Validator a_number_in(double least, double most) {
                        : fmt::format("{} is not a number from {} to {}", text, least, most);
         },
         fmt::format("{}..{}", least, most));
+}
+
+bool names_a_mesh(const std::string& file) {
+    const std::string extension = std::filesystem::path(file).extension().string();
+    const auto& known = mesh_extensions();
+    return extension != ".gltf" && std::find(known.begin(), known.end(), extension) != known.end();
+}
+
+Json refined_report(const RefinedFit& done, const Mesh& source) {
+    return {{"vertices_before", source.positions.rows()},
+            {"vertices", done.source.positions.rows()},
+            {"added", done.added},
+            {"edges_still_too_coarse", done.left}};
 }
 
 } // namespace
@@ -63,13 +77,21 @@ void add_fit_files(CLI::App& verb, FitFlags& flags) {
     verb.add_option("--map", flags.map,
                     "Write CSV of vertex,triangle,a,b,c,distance: the target's triangle and barycentric point for each "
                     "vertex");
+    verb.add_option("--refine", flags.refine,
+                    "Cut the source's triangles where they are too coarse for the target, and write the finer source "
+                    "here: x.ply, .obj, .off or .glb");
     verb.add_option("--weights", flags.weights,
                     "Write how far each vertex can be trusted: CSV, or a .ply, .obj, .off or .glb of the fitted mesh "
                     "coloured by it");
 }
 
 void check_fit_files(const FitFlags& flags) {
-    for (const auto& [option, name] : {std::pair("--map", &flags.map), std::pair("--weights", &flags.weights)}) {
+    if (!flags.refine.empty() && (!names_a_mesh(flags.refine) || flags.refine.ends_with(".stl")))
+        throw Error(ErrorKind::argument, fmt::format("--refine {}: name a mesh that keeps the order of vertices: .ply, "
+                                                     ".obj, .off or .glb",
+                                                     flags.refine));
+    for (const auto& [option, name] : {std::pair("--map", &flags.map), std::pair("--weights", &flags.weights),
+                                       std::pair("--refine", &flags.refine)}) {
         if (name->empty()) continue;
         const std::filesystem::path folder = std::filesystem::path(*name).parent_path();
         if (!folder.empty() && !std::filesystem::is_directory(folder))
@@ -85,14 +107,16 @@ void write_fit_files(const Fitted& fitted, const FitFlags& flags, Console& conso
         report["outputs"].push_back(file);
         console.note("wrote " + file);
     };
+    if (!flags.refine.empty()) {
+        write_mesh(fitted.source, flags.refine);
+        tell(flags.refine);
+    }
     if (!flags.map.empty()) {
         write_map(fitted.map, flags.map);
         tell(flags.map);
     }
     if (!flags.weights.empty()) {
-        const std::string extension = std::filesystem::path(flags.weights).extension().string();
-        const auto& known = mesh_extensions();
-        if (std::find(known.begin(), known.end(), extension) != known.end()) {
+        if (names_a_mesh(flags.weights)) {
             Mesh coloured = fitted.mesh;
             coloured.colors = trust_colors(fitted.map);
             write_mesh(coloured, flags.weights);
@@ -114,19 +138,31 @@ Fitted run_fit(const Mesh& source, const Mesh& target, const MarkerPairs& marker
                                 markers.pairs.size() == 1 ? "is" : "are", markers.pairs.size()));
     options.warp.kernel = flags.kernel == "linear" ? Kernel::linear : Kernel::thin_plate;
     const std::vector<Marker> placed = place_markers(markers.pairs, source);
-    const FitResult result = fit(source, target, placed, options, part_of(progress, 0, 0.8));
+    const Progress fitting = part_of(progress, 0, 0.8);
+    const RefinedFit done = flags.refine.empty()
+                                ? RefinedFit{source, fit(source, target, placed, options, fitting), {}, 0}
+                                : refined_fit(source, target, placed, options, {}, fitting);
+    const FitResult& result = done.fit;
     stop_if_interrupted();
     const double seconds = seconds_since(start);
     console.warn("", result.notes);
 
-    Fitted fitted{source, {}, to_json(result)};
+    Fitted fitted{done.source, done.source, {}, to_json(result)};
+    if (!flags.refine.empty()) {
+        fitted.report["refined"] = refined_report(done, source);
+        console.note(done.added.empty()
+                         ? "refine: the source is fine enough as it is"
+                         : fmt::format("refine: {} vertices became {} in {} rounds", source.positions.rows(),
+                                       done.source.positions.rows(), done.added.size()));
+    }
     fitted.mesh.positions = result.positions;
     fitted.report["seconds"] = seconds;
     keep_going(progress, 0.8, "finding places");
     fitted.map = correspondence(fitted.mesh, target);
-    fitted.report.update(fit_places(source, fitted.mesh, target, result, fitted.map, placed));
+    fitted.report.update(fit_places(fitted.source, fitted.mesh, target, result, fitted.map,
+                                    place_markers(markers.pairs, fitted.source)));
     keep_going(progress, 0.9, "measuring");
-    const Quality quality = measure(source, fitted.mesh, target, {}, markers.pairs, seed);
+    const Quality quality = measure(fitted.source, fitted.mesh, target, {}, markers.pairs, seed);
     fitted.report["quality"] = to_json(quality);
     stop_if_interrupted();
     console.note(fmt::format("fit: {:.4f} % to the target, {:.4f} % back, {} flipped of {} faces, {} cuts, {:.2f} s",

@@ -12,7 +12,7 @@
 struct FitFlags {
     meshtween::FitOptions options;
     std::string kernel = "thin-plate";
-    std::string map, weights; // files to write, or empty
+    std::string map, weights, refine; // files to write, or empty
 };
 void add_fit_flags(CLI::App& verb, FitFlags& flags);
 // Options that tell of one fit and its files; throws Error where a folder for them is missing.
@@ -20,7 +20,8 @@ void add_fit_files(CLI::App& verb, FitFlags& flags);
 void check_fit_files(const FitFlags& flags);
 
 struct Fitted {
-    meshtween::Mesh mesh; // the source's mesh on the target's surface
+    meshtween::Mesh source; // as given, or cut finer where --refine asked for it
+    meshtween::Mesh mesh;   // this source's mesh on the target's surface
     meshtween::Correspondence map;
     meshtween::Json report;
 };

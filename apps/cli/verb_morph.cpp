@@ -38,8 +38,8 @@ void morph_two(const Arguments& a, std::uint32_t seed, Console& console, Json& r
     const std::vector<Tile> tiles{{"source", source, side(markers, true)},
                                   {"target", target, side(markers, false)},
                                   {"source's mesh on the target", fitted.mesh, {}}};
-    write_path({source,
-                {source.positions, fitted.mesh.positions},
+    write_path({fitted.source,
+                {fitted.source.positions, fitted.mesh.positions},
                 outputs,
                 tiles,
                 title_of({a.source, a.target}),
@@ -100,7 +100,8 @@ void add_morph(CLI::App& app, const Common& common) {
     verb->add_option("--report", a->report, "Write what was found out as JSON");
     add_fit_flags(*verb, a->fit);
     add_fit_files(*verb, a->fit);
-    for (const char* of_one_fit : {"--map", "--weights"}) with_template->excludes(verb->get_option(of_one_fit));
+    for (const char* of_one_fit : {"--map", "--weights", "--refine"})
+        with_template->excludes(verb->get_option(of_one_fit));
     add_path_flags(*verb, a->path);
     verb->callback([a, &common] {
         const auto start = std::chrono::steady_clock::now();

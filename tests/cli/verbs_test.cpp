@@ -99,6 +99,24 @@ TEST_F(Verbs, MarkersExactEndsOnTheMarkersAndSeedsReachTheMeasures) {
     EXPECT_EQ(one["eq7"], two["eq7"]);
 }
 
+TEST_F(Verbs, RefinedSourcesServeTween) {
+    egg();
+    meshtween::write_mesh(meshtween::sphere(2), folder_ / "coarse.ply");
+    run({"fit", file("coarse.ply"), file("egg.ply"), "--markers", file("egg.csv"), "-o", file("fitted.ply"), "--refine",
+         file("finer.ply"), "--report", file("r.json")});
+    const auto coarse = meshtween::read_mesh(folder_ / "coarse.ply"),
+               finer = meshtween::read_mesh(folder_ / "finer.ply");
+    ASSERT_GT(finer.positions.rows(), coarse.positions.rows());
+    EXPECT_EQ(finer.positions.topRows(coarse.positions.rows()), coarse.positions);
+    const Json fit = read_json(folder_ / "r.json")["fit"];
+    EXPECT_EQ(fit["refined"]["vertices"], finer.positions.rows());
+    EXPECT_EQ(fit["quality"]["vertices"], finer.positions.rows());
+    run({"tween", file("finer.ply"), file("fitted.ply"), "--at", "0.5", "-o", file("half.ply")});
+    run({"morph", file("coarse.ply"), file("egg.ply"), "--markers", file("egg.csv"), "--refine", file("again.ply"),
+         "--at", "0", "-o", file("start.ply")});
+    EXPECT_EQ(meshtween::read_mesh(folder_ / "start.ply").triangles, finer.triangles);
+}
+
 TEST_F(Verbs, TransferCarriesWhatTheFitMatched) {
     egg();
     meshtween::Mesh target = meshtween::read_mesh(folder_ / "egg.ply");

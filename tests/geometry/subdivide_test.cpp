@@ -47,5 +47,44 @@ TEST(Subdivide, CarriesColoursAndSeams) {
         }
 }
 
+TEST(Subdivide, AnySetOfEdgesLeavesTheSurfaceWhole) {
+    const Mesh ball = sphere(2);
+    const Topology edges = topology(ball.positions.rows(), ball.triangles);
+    for (const std::size_t every : {1, 2, 3, 5, 7, 1000000}) {
+        std::vector<char> cut(edges.edges.size(), 0);
+        for (std::size_t e = 0; e < cut.size(); e += every) cut[e] = 1;
+        const Mesh fine = subdivide(ball, edges, cut);
+        const auto count = std::count(cut.begin(), cut.end(), 1);
+        EXPECT_EQ(fine.positions.rows(), ball.positions.rows() + count);
+        EXPECT_EQ(fine.triangles.rows(), ball.triangles.rows() + 2 * count);
+        EXPECT_TRUE(closed(fine)) << every;
+        EXPECT_EQ(euler(fine), 2);
+        EXPECT_NEAR(volume(fine.positions, fine.triangles), volume(ball.positions, ball.triangles), 1e-12);
+    }
+    EXPECT_EQ(subdivide(ball, edges, std::vector<char>(edges.edges.size(), 1)).triangles, subdivide(ball, 1).triangles);
+}
+
+TEST(Subdivide, CutsSeamsWithTheirEdges) {
+    Mesh quad;
+    quad.positions = Points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    quad.triangles = Triangles{{0, 1, 2}, {0, 2, 3}};
+    quad.texcoords = Texcoords{{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
+    quad.texcoord_triangles = Triangles{{0, 1, 2}, {3, 4, 5}};
+    const Topology edges = topology(4, quad.triangles);
+    for (unsigned set = 0; set < 32; ++set) {
+        std::vector<char> cut;
+        for (unsigned e = 0; e < 5; ++e) cut.push_back(set >> e & 1 ? 1 : 0);
+        const Mesh fine = subdivide(quad, edges, cut);
+        for (Eigen::Index t = 0; t < fine.triangles.rows(); ++t) {
+            EXPECT_GT(double_area_normal(fine.positions, fine.triangles, t)[2], 0);
+            for (int k = 0; k < 3; ++k)
+                EXPECT_LT((fine.positions.row(fine.triangles(t, k)).leftCols<2>().cast<float>() -
+                           fine.texcoords.row(fine.texcoord_triangles(t, k)))
+                              .norm(),
+                          1e-6F);
+        }
+    }
+}
+
 } // namespace
 } // namespace meshtween

@@ -1,0 +1,140 @@
+#include "meshtween/fit/refined_fit.h"
+
+#include "meshtween/core/error.h"
+#include "meshtween/core/parallel.h"
+#include "meshtween/fit/refine.h"
+#include "meshtween/geometry/measure.h"
+#include "meshtween/geometry/subdivide.h"
+#include "meshtween/search/closest_point.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meshtween {
+namespace {
+
+std::size_t idx(std::ptrdiff_t i) {
+    return static_cast<std::size_t>(i);
+}
+
+constexpr double far = 50;           // tolerances: what is further off is a part that the template lacks
+constexpr double least_cosine = 0.5; // between the surfaces' normals
+
+Points edge_middles(const Mesh& mesh, const Topology& topology) {
+    Points middles(std::ssize(topology.edges), 3);
+    for (std::size_t e = 0; e < topology.edges.size(); ++e) {
+        const auto& ends = topology.edges[e].vertices;
+        middles.row(static_cast<Eigen::Index>(e)) = (mesh.positions.row(ends[0]) + mesh.positions.row(ends[1])) / 2;
+    }
+    return middles;
+}
+
+// A flag a vertex: on the target, within the tolerance.
+std::vector<char> settled_vertices(const Mesh& mesh, const ClosestPointIndex& target, double tolerance) {
+    std::vector<char> on(idx(mesh.positions.rows()));
+    const std::vector<ClosestPoint> closest = target.closest(mesh.positions);
+    for (std::size_t i = 0; i < on.size(); ++i) on[i] = closest[i].squared_distance <= tolerance * tolerance ? 1 : 0;
+    return on;
+}
+
+void flag_by_middles(const Mesh& fitted, const Topology& topology, const FitTarget& target, const std::vector<char>& on,
+                     double tolerance, std::vector<char>& flags) {
+    const Points middles = edge_middles(fitted, topology), normals = vertex_normals(fitted.positions, fitted.triangles);
+    parallel_for(
+        std::ssize(topology.edges),
+        [&](std::ptrdiff_t e) {
+            const auto& ends = topology.edges[idx(e)].vertices;
+            if (on[idx(ends[0])] == 0 || on[idx(ends[1])] == 0) return;
+            const Point normal = (normals.row(ends[0]) + normals.row(ends[1])).normalized();
+            const ClosestPoint closest =
+                target.index.closest(Point(middles.row(e)), {normal, least_cosine}, far * tolerance);
+            if (!closest.found() || on_border(target, closest.where)) return;
+            flags[idx(e)] = closest.squared_distance > tolerance * tolerance ? 1 : 0;
+        },
+        256);
+}
+
+// Triangles over which the target's own vertices rise.
+void flag_by_target(const Mesh& fitted, const Topology& topology, const Mesh& target, const std::vector<char>& on,
+                    double tolerance, std::vector<char>& flags) {
+    const FitTarget own = fit_target(fitted.positions, fitted.triangles);
+    const Points normals = vertex_normals(target.positions, target.triangles);
+    std::vector<char> triangles(idx(fitted.triangles.rows()), 0);
+    std::vector<int> under(idx(target.positions.rows()), -1);
+    parallel_for(
+        target.positions.rows(),
+        [&](std::ptrdiff_t i) {
+            const ClosestPoint c =
+                own.index.closest(Point(target.positions.row(i)), {normals.row(i), least_cosine}, far * tolerance);
+            if (!c.found() || c.squared_distance <= tolerance * tolerance || on_border(own, c.where)) return;
+            for (int k = 0; k < 3; ++k)
+                if (on[idx(fitted.triangles(c.where.triangle, k))] == 0) return;
+            under[idx(i)] = c.where.triangle;
+        },
+        256);
+    for (const int t : under)
+        if (t >= 0) triangles[idx(t)] = 1;
+    for (std::size_t e = 0; e < flags.size(); ++e)
+        for (const int t : topology.edges[e].triangles)
+            if (t >= 0 && triangles[idx(t)] != 0) flags[e] = 1;
+}
+
+std::vector<Marker> moved_to(const Mesh& finer, const Mesh& source, std::span<const Marker> markers) {
+    std::vector<Marker> moved(markers.begin(), markers.end());
+    if (moved.empty()) return moved;
+    const ClosestPointIndex index(finer);
+    for (Marker& m : moved) m.source = index.closest(position(source.positions, source.triangles, m.source)).where;
+    return moved;
+}
+
+} // namespace
+
+std::vector<char> too_coarse(const Mesh& fitted, const Topology& topology, const Mesh& target, double tolerance) {
+    const double length = tolerance * diagonal(target.positions);
+    std::vector<char> flags(topology.edges.size(), 0);
+    const FitTarget surface = fit_target(target.positions, target.triangles);
+    const std::vector<char> on = settled_vertices(fitted, surface.index, length);
+    flag_by_middles(fitted, topology, surface, on, length, flags);
+    flag_by_target(fitted, topology, target, on, length, flags);
+    return flags;
+}
+
+RefinedFit refined_fit(const Mesh& source, const Mesh& target, std::span<const Marker> markers,
+                       const FitOptions& options, const RefineOptions& refine, const Progress& progress) {
+    if (!(refine.tolerance > 0) || refine.rounds < 0)
+        throw Error(ErrorKind::argument,
+                    fmt::format("refining to {} in {} rounds: give a tolerance above 0 and 0 rounds "
+                                "or more",
+                                refine.tolerance, refine.rounds));
+    RefinedFit result;
+    result.source = source;
+    const auto share = [&](int round) { return std::pow(2.0, round - refine.rounds); }; // later ones take longer
+    result.fit = fit(source, target, markers, options, part_of(progress, 0, share(0)));
+    for (int round = 0; result.fit.end != FitEnd::cancelled; ++round) {
+        Mesh fitted = result.source;
+        fitted.positions = result.fit.positions;
+        const Topology edges = topology(fitted.positions.rows(), fitted.triangles);
+        const std::vector<char> coarse = too_coarse(fitted, edges, target, refine.tolerance);
+        result.left = std::count(coarse.begin(), coarse.end(), 1);
+        if (result.left == 0 || round == refine.rounds) break;
+        if (fitted.positions.rows() + result.left > refine.most_vertices) {
+            result.fit.notes.push_back(fmt::format("refining stopped at {} vertices: another round would end above {}",
+                                                   fitted.positions.rows(), refine.most_vertices));
+            break;
+        }
+        Mesh finer = subdivide(result.source, edges, coarse);
+        FitResult next = fit(finer, target, moved_to(finer, source, markers), options,
+                             part_of(progress, share(round), share(round + 1)));
+        if (next.end == FitEnd::cancelled) {
+            result.fit.end = FitEnd::cancelled;
+            break;
+        }
+        result.added.push_back(result.left);
+        result.source = std::move(finer), result.fit = std::move(next);
+    }
+    return result;
+}
+
+} // namespace meshtween
