@@ -184,10 +184,12 @@ def few_cell(program, case, folder, count):
 
 
 def few_table(program, cases, folder, counts=(40, 20, 10, 5, 0)):
-    lines = ["| case | " + " | ".join("%d markers" % c for c in counts) + " |", "|---|" + "---|" * len(counts)]
+    lines = ["| case | all up to %d | " % counts[0] + " | ".join("%d markers" % c for c in counts[1:]) + " |",
+             "|---|" + "---|" * len(counts)]
     for case in cases:
         there_are = len(rows_of(os.path.join(case, "markers.csv"))) - 1
-        cells = [few_cell(program, case, folder, c) if c <= there_are else "–" for c in counts]
+        counted = [min(counts[0], there_are)] + list(counts[1:])
+        cells = [few_cell(program, case, folder, c) if c <= there_are else "–" for c in counted]
         lines.append("| %s | %s |" % (os.path.basename(case), " | ".join(cells)))
         print(lines[-1], file=sys.stderr)
     return lines
