@@ -208,7 +208,7 @@ def path_table(program, cases, folder, methods):
         for method in methods:
             report = os.path.join(folder, "path.json")
             done, _ = run([program, "tween", os.path.join(case, "source.obj"), os.path.join(case, "target.obj"), "--method", method,
-                           "--quiet", "-o", os.path.join(folder, "f_##.ply"), "--frames", "3", "--report", report])
+                           "--quiet", "--no-repair", "-o", os.path.join(folder, "f_##.ply"), "--frames", "3", "--report", report])
             if done.returncode != 0:
                 cells.append("failed")
                 continue

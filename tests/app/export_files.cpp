@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <functional>
 
 using namespace meshtween;
 
@@ -35,11 +36,11 @@ Mesh painted(Mesh mesh) {
     return mesh;
 }
 
-// u and all vertices of the curve there, for a few u, as JSON.
-std::string shapes_of(const Curve& curve) {
+// u and all vertices of the path there, for a few u, as JSON.
+std::string shapes_of(const std::function<Points(double)>& at) {
     std::string text = "[";
     for (const double u : {0.0, 0.05, 0.13, 0.31, 0.44, 0.5, 0.62, 0.77, 0.9, 1.0}) {
-        const Points p = curve.at(u);
+        const Points p = at(u);
         text += fmt::format("{}{{\"u\":{},\"vertices\":[{}]}}", text.size() > 1 ? "," : "", u,
                             fmt::join(p.data(), p.data() + p.size(), ","));
     }
@@ -60,7 +61,7 @@ int main(int count, char** arguments) {
     const std::string glb = morph_glb(mesh, curve, options);
     write_whole(folder / "morph.glb", glb);
     write_whole(folder / "morph.html", morph_html(glb, options));
-    write_whole(folder / "morph.json", shapes_of(curve));
+    write_whole(folder / "morph.json", shapes_of([&](double u) { return curve.at(u); }));
     write_whole(folder / "morph_painted.glb",
                 morph_glb(painted(mesh), curve, {.seconds = 1, .ping_pong = false, .title = ""}));
 
@@ -71,13 +72,17 @@ int main(int count, char** arguments) {
     const std::string keys_glb = morph_glb(mesh, keys, {.ping_pong = false, .ease = Ease::in_out, .title = "Keys"});
     write_whole(folder / "keys.glb", keys_glb);
     write_whole(folder / "keys.html", morph_html(keys_glb, {.ease = Ease::in_out, .title = "Keys"}));
-    write_whole(folder / "keys.json", shapes_of(keys));
+    write_whole(folder / "keys.json", shapes_of([&](double u) { return keys.at(u); }));
+
+    const Morph bend = morph(mesh, turn(curve.nodes.back(), {1, 2, 0.5}, 2)); // the path itself, not its curve
+    write_whole(folder / "path.html", morph_html(morph_glb(mesh, meshtween::curve(bend))));
+    write_whole(folder / "path.json", shapes_of(bend.at));
 
     Curve far = curve; // needs the node's translation
     for (Points& node : far.nodes) node.rowwise() += Point(2e5, -1e6, 3e5);
     const std::string far_glb = morph_glb(mesh, far);
     write_whole(folder / "far.glb", far_glb);
     write_whole(folder / "far.html", morph_html(far_glb, {.seconds = 2, .ping_pong = false, .title = ""}));
-    write_whole(folder / "far.json", shapes_of(far));
+    write_whole(folder / "far.json", shapes_of([&](double u) { return far.at(u); }));
     return 0;
 }

@@ -1,5 +1,5 @@
 // An exported page in headless Chromium: it shows the curve's vertices, loads nothing, and answers to keys.
-// player.mjs FOLDER: reads morph.html, keys.html, far.html and their .json, leaves screenshots beside them.
+// player.mjs FOLDER: reads morph.html, path.html, keys.html, far.html and their .json, leaves screenshots beside them.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -114,6 +114,7 @@ try {
         await checkShapes(page, 'morph', 1e-6);
         await checkSizes(page);
     });
+    await checked('path', (page) => checkShapes(page, 'path', 1e-4)); // the tolerance of curves
     await checked('keys', (page) => checkShapes(page, 'keys', 1e-6));
     await checked('far', (page) => checkShapes(page, 'far', 1e-6));
 } finally {
