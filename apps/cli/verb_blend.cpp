@@ -42,7 +42,7 @@ void add_blend(CLI::App& app, const Common& common) {
     const auto a = std::make_shared<Arguments>();
     verb->add_option("MESH", a->meshes, "Meshes with the same vertices and faces in the same order")
         ->required()
-        ->expected(2, 10000);
+        ->expected(-2);
     verb->add_option("--weights", a->weights, "A number a mesh, with commas; all alike where none are given")
         ->delimiter(',')
         ->expected(1, 10000);

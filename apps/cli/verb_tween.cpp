@@ -24,7 +24,7 @@ void add_tween(CLI::App& app, const Common& common) {
     verb->add_option("MESH", a->meshes,
                      "The shapes in their order, two or more, with the same vertices and faces in the same order")
         ->required()
-        ->expected(2, 10000);
+        ->expected(-2);
     verb->add_option(
             "-o,--output", a->outputs,
             "x.glb, x.html, x.png, x.apng, x.svg, frame_####.obj, or x.obj with --at; may be given several times")
