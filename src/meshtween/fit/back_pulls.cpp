@@ -51,6 +51,8 @@ void add_back_pulls(const Shell& shell, const Points& positions, const FitTarget
                                   : index.closest(from, Compatible{normal, 0}, reach);
         },
         64);
+    std::vector<Eigen::Matrix3d> drawn(blocks.size(), Eigen::Matrix3d::Zero());
+    Points towards = Points::Zero(right.rows(), 3);
     for (std::size_t k = 0; k < places.size(); ++k) { // in order: several may reach one vertex
         const ClosestPoint& place = places[k];
         if (!place.found()) continue;
@@ -64,9 +66,15 @@ void add_back_pulls(const Shell& shell, const Points& positions, const FitTarget
         for (int c = 0; c < 3; ++c) {
             const int vertex = shell.triangles(place.where.triangle, c);
             const double share = place.where.barycentric[c];
-            blocks[idx(vertex)] += share * pull;
-            right.row(vertex) += share * (Point(positions.row(vertex)) + way) * pull;
+            drawn[idx(vertex)] += share * pull;
+            towards.row(vertex) += share * (Point(positions.row(vertex)) + way) * pull;
         }
+    }
+    // No vertex is drawn harder than it clings itself: much that is uncovered must not tear at the few that are near.
+    for (std::size_t v = 0; v < drawn.size(); ++v) {
+        const double share = std::min(1.0, weight * shell.area[v] / std::max(drawn[v].trace(), 1e-300));
+        blocks[v] += share * drawn[v];
+        right.row(static_cast<Eigen::Index>(v)) += share * towards.row(static_cast<Eigen::Index>(v));
     }
 }
 
