@@ -16,7 +16,8 @@ TEST(Events, give_each_reader_every_message_once_and_in_order) {
     std::uint64_t a = events.end(), b = a;
     events.publish("x", {{"n", 1}});
     events.publish("y", {{"n", 2}});
-    EXPECT_EQ(events.wait(a, milliseconds(0)), "id: 0\nevent: x\ndata: {\"n\":1}\n\nid: 1\nevent: y\ndata: {\"n\":2}\n\n");
+    EXPECT_EQ(events.wait(a, milliseconds(0)),
+              "id: 0\nevent: x\ndata: {\"n\":1}\n\nid: 1\nevent: y\ndata: {\"n\":2}\n\n");
     EXPECT_EQ(events.wait(a, milliseconds(0)), "");
     events.publish("z", nullptr);
     EXPECT_EQ(events.wait(a, milliseconds(0)), "id: 2\nevent: z\ndata: null\n\n");

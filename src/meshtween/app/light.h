@@ -26,8 +26,8 @@ std::vector<Lit> light(const std::vector<SurfaceSpot>& places, const Points& pos
                        const ViewAxes& view);
 
 // What a viewer sees of a place of this colour (linear RGB) from the direction towards the eye.
-Eigen::Vector3f shade(const SurfaceSpot& place, const Lit& lit, const Eigen::Vector3f& albedo, const Eigen::Vector3d& to_eye,
-                      const ViewAxes& view);
+Eigen::Vector3f shade(const SurfaceSpot& place, const Lit& lit, const Eigen::Vector3f& albedo,
+                      const Eigen::Vector3d& to_eye, const ViewAxes& view);
 
 // m x 9: the unit normals of each triangle's corners, smooth but for edges sharper than this angle.
 using CornerNormals = Eigen::Matrix<float, Eigen::Dynamic, 9, Eigen::RowMajor>;
