@@ -195,6 +195,25 @@ def few_table(program, cases, folder, counts=(40, 20, 10, 5, 0)):
     return lines
 
 
+def large_table(program, folder, methods, most=3):
+    """Time and memory with the size of the mesh: a sample's bodies, each triangle cut in four again and again."""
+    lines = ["| vertices | " + " | ".join("`--fit %s`: seconds / MiB" % m for m in methods) + " |", "|---|" + "---|" * len(methods)]
+    for subdivide in range(most + 1):
+        run([program, "sample", "bow", "--subdivide", str(subdivide), "-o", folder, "--quiet"])
+        name = lambda what: os.path.join(folder, "bow_" + what)
+        cells = []
+        for method in methods:
+            report = os.path.join(folder, "large.json")
+            run([program, "fit", name("source.ply"), name("target.ply"), "--markers", name("markers.csv"), "--fit", method, "--quiet",
+                 "-o", os.path.join(folder, "large.ply"), "--report", report])
+            with open(report) as f:
+                found = json.load(f)
+            cells.append("%.1f / %.0f" % (found["fit"]["seconds"], found["peak_memory_mib"]))
+        lines.append("| %d | %s |" % (found["source"]["vertices"], " | ".join(cells)))
+        print(lines[-1], file=sys.stderr)
+    return lines
+
+
 def same_connectivity(case):
     with open(os.path.join(case, "case.json")) as f:
         info = json.load(f)
@@ -229,6 +248,7 @@ def main():
     ap.add_argument("--fit", nargs="+", default=["paper"])
     ap.add_argument("--methods", nargs="+", default=["linear", "laplacian", "dual-as-printed", "dual", "rigid"])
     ap.add_argument("--few", action="store_true", help="also fit with 40, 20, 10, 5 and 0 markers")
+    ap.add_argument("--large", action="store_true", help="also time fits of meshes of up to 760,000 vertices")
     ap.add_argument("--write", help="put the tables between the marks of this page")
     a = ap.parse_args()
     cases = sorted(os.path.join(a.data, d) for d in os.listdir(a.data)
@@ -258,6 +278,10 @@ def main():
             text += ["", "### With fewer markers", "", "Mean error / back. The error is that of the vertices, or in brackets that "
                      "of the markers left out. Markers are taken in the order of farthest-point sampling.", ""]
             text += few_table(a.program, fits, folder)
+        if a.large:
+            text += ["", "### Large meshes", "", "The sample `bow`, 40 markers, with `--subdivide` 0 to 3. Memory includes reading and "
+                     "measuring.", ""]
+            text += large_table(a.program, folder, a.fit)
         paths = [c for c in cases if same_connectivity(c)]
         if paths:
             text += ["", "### Paths at u = 0.5: volume / edge strain in %", ""] + path_table(a.program, paths, folder, a.methods)

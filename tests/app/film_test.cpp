@@ -31,7 +31,7 @@ TEST(Film, ShowsMotionFromOneCamera) {
     there.positions.col(0).array() += 3;
     const Film film(ball, {ball.positions, there.positions}, 200);
     Mesh away = ball;
-    away.positions.col(1).array() += 1000;
+    away.positions.col(0).array() += 1000;
     const Image first = film.frame(ball), last = film.frame(there), empty = film.frame(away);
     EXPECT_EQ(first.width, last.width);
     EXPECT_EQ(first.height, last.height);

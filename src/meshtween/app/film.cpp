@@ -15,14 +15,16 @@ Film::Film(const Mesh& mesh, const std::vector<Points>& examples, int size) {
         low = low.cwiseMin(p.colwise().minCoeff());
         high = high.cwiseMax(p.colwise().maxCoeff());
     }
-    origin_ = {(low[0] + high[0]) / 2, low[1], (low[2] + high[2]) / 2};
+    origin_ = (low + high) / 2;
     std::vector<Shape> shapes;
     for (const Points& p : examples) shapes.push_back(placed(p, mesh.triangles));
     layout_ = lay_out(shapes, {.tile = size, .columns = 1});
 }
 
 Shape Film::placed(const Points& positions, const Triangles& triangles) const {
-    return {positions.rowwise() - origin_, triangles, origin_, 1};
+    Point origin = origin_;
+    origin[1] = positions.col(1).minCoeff();
+    return {positions.rowwise() - origin, triangles, origin, 1};
 }
 
 Image Film::frame(const Mesh& mesh) const {

@@ -18,7 +18,7 @@ public:
 private:
     Shape placed(const Points& positions, const Triangles& triangles) const;
 
-    Point origin_{0, 0, 0};
+    Point origin_{0, 0, 0}; // the middle of the motion; each shape stands on the ground
     Layout layout_;
 };
 
