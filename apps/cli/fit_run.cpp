@@ -168,5 +168,9 @@ Fitted run_fit(const Mesh& source, const Mesh& target, const MarkerPairs& marker
     console.note(fmt::format("fit: {:.4f} % to the target, {:.4f} % back, {} flipped of {} faces, {} cuts, {:.2f} s",
                              quality.fitted_to_target.mean, quality.target_to_fitted.mean, quality.flipped,
                              quality.triangles, quality.cuts, seconds));
+    if (1000 * quality.flipped > quality.triangles)
+        console.warn(
+            "the mesh is folded in places (guards and worst in --report say where); a marker that disagrees with "
+            "its neighbours folds it, a few more around the place unfold it");
     return fitted;
 }
