@@ -207,6 +207,19 @@ TEST(SurfaceFit, PosesABentBar) {
     EXPECT_TRUE(flipped_triangles(r.positions, m.triangles, fit_target(target.positions, target.triangles)).empty());
 }
 
+TEST(SurfaceFit, ATurnedTargetGivesTheSameShape) {
+    const Mesh straight = bar({4, 1, 1}, {24, 6, 6}, 0.15);
+    Mesh bent = bar({4, 1, 1}, {26, 7, 7}, 0.15); // another mesh, so that closest places are not corners
+    bent.positions = bend(bent.positions, 4, 1.2);
+    Mesh turned = bent;
+    turned.positions = spin(bent.positions).rowwise() + Point(5, -3, 2);
+    const Points goals = bend(straight.positions, 4, 1.2);
+    const Points turned_goals = spin(goals).rowwise() + Point(5, -3, 2);
+    const FitResult plain = surface_fit(straight, bent, vertex_markers(straight, goals, 12), {}, {});
+    const FitResult other = surface_fit(straight, turned, vertex_markers(straight, turned_goals, 12), {}, {});
+    EXPECT_LT(worst(spin(plain.positions).rowwise() + Point(5, -3, 2), other.positions), 1e-9);
+}
+
 TEST(SurfaceFit, TheSameBitsWithAnyNumberOfThreads) {
     const Mesh m = sphere(4);
     Mesh target = sphere(4);

@@ -6,6 +6,7 @@
 #include "meshtween/fit/surface_fit.h"
 
 #include "meshtween/core/error.h"
+#include "meshtween/core/parallel.h"
 #include "meshtween/fit/align.h"
 #include "meshtween/fit/refine.h"
 #include "meshtween/fit/settle.h"
@@ -47,12 +48,22 @@ double membrane_share(double strain) {
     return std::clamp(std::pow(strain / unlike, 4), 1e-3, 1.0);
 }
 
-struct Frame { // the target's: everything is computed in coordinates where its diagonal is 1
+// Everything is computed in coordinates where the target's diagonal is 1 and, as far as markers tell, it is turned as
+// the source is.
+struct Frame {
     Point origin{0, 0, 0};
+    Eigen::Matrix3d turn = Eigen::Matrix3d::Identity(); // of rows
     double diagonal = 1;
-    Points in(const Points& x) const { return (x.rowwise() - origin) / diagonal; }
-    Points out(const Points& x) const { return ((x * diagonal).rowwise() + origin).eval(); }
+    Points in(const Points& x) const { return (x.rowwise() - origin) * turn / diagonal; }
+    Points out(const Points& x) const { return ((x * (diagonal * turn.transpose())).rowwise() + origin).eval(); }
 };
+
+// On a grid finer than any mesh is meant, so that a turned target gives the same bits and with them the same decisions:
+// which of two places as close is closest decides far more than a rounding.
+Points on_grid(const Points& x) {
+    constexpr double grid = 1 << 26;
+    return (x.array() * grid).round() / grid;
+}
 
 bool on_one_line(const Points& points) {
     const Points centred = points.rowwise() - points.colwise().mean();
@@ -85,6 +96,31 @@ Similarity start(const Mesh& source, const Points& target, const Triangles& targ
     Similarity s = align_axes(source.positions, source.triangles, target, target_triangles);
     s.translation += (goals - s(from)).colwise().mean();
     return s;
+}
+
+Frame frame_of(const Mesh& source, const Mesh& target, std::span<const Marker> markers) {
+    Frame frame;
+    frame.origin = target.positions.colwise().mean();
+    Points from(std::ssize(markers), 3), to(std::ssize(markers), 3);
+    for (std::size_t k = 0; k < markers.size(); ++k) {
+        from.row(static_cast<Eigen::Index>(k)) = position(source.positions, source.triangles, markers[k].source);
+        to.row(static_cast<Eigen::Index>(k)) = markers[k].target;
+    }
+    if (markers.size() >= 3 && !on_one_line(from) && !on_one_line(to)) frame.turn = align(from, to).rotation;
+    frame.diagonal = diagonal(frame.in(target.positions));
+    return frame;
+}
+
+// From the target on the grid to the target itself, for the vertices on it.
+void leave_grid(Points& x, const FitTarget& target, const Points& itself) {
+    constexpr double on_it = 1e-7;
+    parallel_for(
+        x.rows(),
+        [&](Eigen::Index i) {
+            const ClosestPoint there = target.index.closest(Point(x.row(i)));
+            if (there.squared_distance < on_it * on_it) x.row(i) = position(itself, target.triangles, there.where);
+        },
+        256);
 }
 
 // The pose: as rigid as possible with the markers held, before anything is asked of the surface.
@@ -130,11 +166,12 @@ void measure_markers(const Points& x, const Mesh& source, std::span<const Marker
 FitResult surface_fit(const Mesh& source, const Mesh& target_mesh, std::span<const Marker> markers,
                       const FitOptions& options, const Progress& progress) {
     FitResult result;
-    const Frame frame{target_mesh.positions.colwise().mean(), diagonal(target_mesh.positions)};
-    const FitTarget target = fit_target(frame.in(target_mesh.positions), target_mesh.triangles);
-    Points goals(static_cast<Eigen::Index>(markers.size()), 3);
-    for (std::size_t k = 0; k < markers.size(); ++k)
-        goals.row(static_cast<Eigen::Index>(k)) = (markers[k].target - frame.origin) / frame.diagonal;
+    const Frame frame = frame_of(source, target_mesh, markers);
+    const Points in_frame = frame.in(target_mesh.positions);
+    const FitTarget target = fit_target(on_grid(in_frame), target_mesh.triangles);
+    Points goals(std::ssize(markers), 3);
+    for (std::size_t k = 0; k < markers.size(); ++k) goals.row(static_cast<Eigen::Index>(k)) = markers[k].target;
+    goals = on_grid(frame.in(goals));
     const Points rest =
         start(source, target.positions, target.triangles, markers, goals, result.notes)(source.positions);
     std::vector<Pin> pins;
@@ -181,6 +218,7 @@ FitResult surface_fit(const Mesh& source, const Mesh& target_mesh, std::span<con
     for (Eigen::Index i = 0; i < x.rows(); ++i) // vertices of no triangle go where the similarity takes them
         if (shells.shells[0].topology.vertex_triangles[i].empty()) x.row(i) = rest.row(i);
     measure_markers(x, source, markers, goals, result);
+    leave_grid(x, target, in_frame);
     result.positions = frame.out(x);
     result.weights.resize(static_cast<std::size_t>(x.rows()), 0.0);
     result.end = going ? FitEnd::converged : FitEnd::cancelled;
