@@ -26,7 +26,7 @@ std::string png_bytes(const Image& image) {
     return bytes;
 }
 
-std::string big_endian(std::uint32_t value, int bytes) {
+std::string big_endian(std::uint64_t value, int bytes) {
     std::string text;
     for (int shift = 8 * (bytes - 1); shift >= 0; shift -= 8) text += static_cast<char>(value >> shift & 0xFF);
     return text;
