@@ -195,7 +195,7 @@ def few_table(program, cases, folder, counts=(40, 20, 10, 5, 0)):
     return lines
 
 
-def large_table(program, folder, methods, most=3):
+def large_table(program, folder, methods, most=2):
     """Time and memory with the size of the mesh: a sample's bodies, each triangle cut in four again and again."""
     lines = ["| vertices | " + " | ".join("`--fit %s`: seconds / MiB" % m for m in methods) + " |", "|---|" + "---|" * len(methods)]
     for subdivide in range(most + 1):
@@ -248,7 +248,7 @@ def main():
     ap.add_argument("--fit", nargs="+", default=["paper"])
     ap.add_argument("--methods", nargs="+", default=["linear", "laplacian", "dual-as-printed", "dual", "rigid"])
     ap.add_argument("--few", action="store_true", help="also fit with 40, 20, 10, 5 and 0 markers")
-    ap.add_argument("--large", action="store_true", help="also time fits of meshes of up to 760,000 vertices")
+    ap.add_argument("--large", action="store_true", help="also time fits of meshes of up to 190,000 vertices")
     ap.add_argument("--write", help="put the tables between the marks of this page")
     a = ap.parse_args()
     cases = sorted(os.path.join(a.data, d) for d in os.listdir(a.data)
@@ -279,7 +279,7 @@ def main():
                      "of the markers left out. Markers are taken in the order of farthest-point sampling.", ""]
             text += few_table(a.program, fits, folder)
         if a.large:
-            text += ["", "### Large meshes", "", "The sample `bow`, 40 markers, with `--subdivide` 0 to 3. Memory includes reading and "
+            text += ["", "### Large meshes", "", "The sample `bow`, 40 markers, with `--subdivide` 0 to 2. Memory includes reading and "
                      "measuring.", ""]
             text += large_table(a.program, folder, a.fit)
         paths = [c for c in cases if same_connectivity(c)]
