@@ -204,6 +204,13 @@ std::vector<MarkerPair> complete_pairs(const std::vector<PlacedMarker>& markers)
     return pairs;
 }
 
+Points side_of_pairs(const std::vector<MarkerPair>& pairs, Side side) {
+    Points points(std::ssize(pairs), 3);
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+        points.row(Eigen::Index(i)) = side == Side::source ? pairs[i].source : pairs[i].target;
+    return points;
+}
+
 std::string mark_of(const std::vector<PlacedMarker>& markers) {
     Json places = Json::array();
     for (const MarkerPair& pair : complete_pairs(markers)) places.push_back({point(pair.source), point(pair.target)});

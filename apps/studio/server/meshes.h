@@ -50,6 +50,7 @@ Fitted examined(const OpenMesh& source, const OpenMesh& target, const FitResult&
 
 // The markers that have both sides, as the fit takes them; unnamed ones get their number.
 std::vector<MarkerPair> complete_pairs(const std::vector<PlacedMarker>& markers);
+Points side_of_pairs(const std::vector<MarkerPair>& pairs, Side side); // a row a pair
 // Differs where their places differ: tells whether a fit is of today's markers.
 std::string mark_of(const std::vector<PlacedMarker>& markers);
 

@@ -32,13 +32,6 @@ std::string buffer(const Mesh& mesh, const Frame& frame, const std::string& what
     throw Error(ErrorKind::argument, "there is no such buffer");
 }
 
-Points side_of_pairs(const std::vector<MarkerPair>& pairs, Side side) {
-    Points points(std::ssize(pairs), 3);
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-        points.row(Eigen::Index(i)) = side == Side::source ? pairs[i].source : pairs[i].target;
-    return points;
-}
-
 // How a path is to be made.
 struct PathWanted {
     MorphOptions options;

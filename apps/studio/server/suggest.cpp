@@ -24,13 +24,6 @@ double distance_to_markers(const Point& at, const std::vector<PlacedMarker>& mar
 
 constexpr std::size_t enough_to_warp = 6; // fewer tell a turn and a size; between them a warp would run wild
 
-Points side_of_pairs(const std::vector<MarkerPair>& pairs, Side side) {
-    Points points(std::ssize(pairs), 3);
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-        points.row(Eigen::Index(i)) = side == Side::source ? pairs[i].source : pairs[i].target;
-    return points;
-}
-
 Point carried(const Pose& pose, const std::vector<MarkerPair>& pairs, Side from, const Point& point) {
     const Points one = point;
     const Points start = side_of_pairs(pairs, from),
