@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 
 namespace meshtween {
 namespace {
@@ -19,33 +20,83 @@ std::size_t idx(std::ptrdiff_t i) {
 
 struct Goals {
     Points positions, normals; // normals are zero where there is none
+    std::vector<int> places;   // n: the triangle of the last answer, a hint for the next; -1 for none
 };
 
-Goals goals(const Shell& shell, const Points& positions, const FitTarget& target, const SettleOptions& options) {
-    Goals result{positions, Points::Zero(positions.rows(), 3)};
+// Brings the goals of the vertices in `asked` up to date.
+void find_goals(const Shell& shell, const Points& positions, const FitTarget& target, const SettleOptions& options,
+                const std::vector<int>& asked, Goals& goals) {
     const Points normals = vertex_normals(positions, shell.triangles);
     const Points directions = border_directions(positions, shell.triangles, shell.topology);
     parallel_for(
-        positions.rows(),
-        [&](std::ptrdiff_t i) {
+        std::ssize(asked),
+        [&](std::ptrdiff_t k) {
+            const Eigen::Index i = asked[idx(k)];
+            goals.positions.row(i) = positions.row(i);
+            goals.normals.row(i).setZero();
             if (shell.topology.on_boundary[idx(i)]) {
                 const ClosestPoint border = closest_on_border(target, positions.row(i), directions.row(i));
                 if (border.found() && border.squared_distance <= options.reach * options.reach) {
-                    result.positions.row(i) = border.position;
-                    result.normals.row(i) = normals.row(i);
+                    goals.positions.row(i) = border.position;
+                    goals.normals.row(i) = normals.row(i);
                     return;
                 }
             }
             const Compatible compatible{normals.row(i), options.least_cosine};
-            const ClosestPoint closest = target.index.closest(Point(positions.row(i)), compatible, options.reach);
+            int& hint = goals.places[idx(i)];
+            const ClosestPoint closest = target.index.closest(Point(positions.row(i)), compatible, options.reach, hint);
             if (!closest.found()) return;
+            hint = closest.where.triangle;
             if (shell.topology.on_boundary[idx(i)] == 0 && on_border(target, closest.where)) return;
-            result.positions.row(i) = closest.position;
-            result.normals.row(i) = target.index.normals().row(closest.where.triangle);
+            goals.positions.row(i) = closest.position;
+            goals.normals.row(i) = target.index.normals().row(closest.where.triangle);
         },
-        256);
-    return result;
+        64);
 }
+
+// Which triangles look into the target, kept up to date while vertices move: only those that moved are asked again.
+class Facing {
+public:
+    Facing(const Triangles& triangles, const FitTarget& target, const std::vector<int>& vertex_places)
+        : triangles_(triangles), target_(target), place_(idx(triangles.rows()), -1), flag_(place_.size(), 0) {
+        if (vertex_places.empty()) return;
+        for (std::size_t t = 0; t < place_.size(); ++t)
+            place_[t] = vertex_places[idx(triangles(static_cast<Eigen::Index>(t), 0))];
+    }
+
+    // Ascending.
+    std::vector<int> into(const Points& positions) {
+        const bool all = last_.rows() == 0;
+        parallel_for(
+            triangles_.rows(),
+            [&](std::ptrdiff_t t) {
+                bool moved = all;
+                for (int k = 0; k < 3 && !moved; ++k)
+                    moved = positions.row(triangles_(t, k)) != last_.row(triangles_(t, k));
+                if (moved) ask(positions, t);
+            },
+            256);
+        last_ = positions;
+        std::vector<int> result;
+        for (std::size_t t = 0; t < flag_.size(); ++t)
+            if (flag_[t]) result.push_back(static_cast<int>(t));
+        return result;
+    }
+
+private:
+    void ask(const Points& x, std::ptrdiff_t t) {
+        const Point centre = (x.row(triangles_(t, 0)) + x.row(triangles_(t, 1)) + x.row(triangles_(t, 2))) / 3;
+        int& place = place_[idx(t)];
+        place = target_.index.closest(centre, place).where.triangle;
+        flag_[idx(t)] = double_area_normal(x, triangles_, t).dot(target_.index.normals().row(place)) < 0;
+    }
+
+    const Triangles& triangles_;
+    const FitTarget& target_;
+    std::vector<int> place_; // the triangle of the target closest to each centre
+    std::vector<char> flag_;
+    Points last_;
+};
 
 // The steps shortened until no triangle that looked along the surface's normals at its corners looks against them.
 Points guarded(const Shell& shell, const Points& from, const Goals& to, std::vector<int>& refused) {
@@ -107,35 +158,34 @@ Points relaxed_around(const Shell& shell, const Points& positions, const std::ve
 } // namespace
 
 std::vector<int> flipped_triangles(const Points& positions, const Triangles& triangles, const FitTarget& target) {
-    std::vector<char> flag(idx(triangles.rows()), 0);
-    parallel_for(
-        triangles.rows(),
-        [&](std::ptrdiff_t t) {
-            const Point centre =
-                (positions.row(triangles(t, 0)) + positions.row(triangles(t, 1)) + positions.row(triangles(t, 2))) / 3;
-            const int there = target.index.closest(centre).where.triangle;
-            flag[idx(t)] = double_area_normal(positions, triangles, t).dot(target.index.normals().row(there)) < 0;
-        },
-        256);
-    std::vector<int> flipped;
-    for (std::size_t t = 0; t < flag.size(); ++t)
-        if (flag[t]) flipped.push_back(static_cast<int>(t));
-    return flipped;
+    return Facing(triangles, target, {}).into(positions);
 }
 
 Settled settle(const Shell& shell, const Points& positions, const FitTarget& target, const SettleOptions& options) {
+    const Eigen::Index n = positions.rows();
+    Goals goals{positions, Points::Zero(n, 3), std::vector<int>(idx(n), -1)};
+    std::vector<int> asked(idx(n));
+    std::iota(asked.begin(), asked.end(), 0);
+    find_goals(shell, positions, target, options, asked, goals);
     Settled result;
-    result.positions = guarded(shell, positions, goals(shell, positions, target, options), result.refused);
-    result.flipped = flipped_triangles(result.positions, shell.triangles, target);
+    result.positions = guarded(shell, positions, goals, result.refused);
+    Facing facing(shell.triangles, target, goals.places);
+    result.flipped = facing.into(result.positions);
     const std::vector<int> before = result.flipped;
     Points trial = result.positions;
+    std::vector<int> looking = result.flipped, refused = result.refused;
     for (int round = 0; round < options.mending_rounds && !result.flipped.empty(); ++round) {
-        trial = relaxed_around(shell, trial, flipped_triangles(trial, shell.triangles, target), 1);
-        std::vector<int> ignored;
-        trial = guarded(shell, trial, goals(shell, trial, target, options), ignored);
-        std::vector<int> left = flipped_triangles(trial, shell.triangles, target);
-        if (left.size() >= result.flipped.size()) continue;
-        result.flipped = std::move(left);
+        const Points relaxed = relaxed_around(shell, trial, looking, 1);
+        asked = std::move(refused); // those on their way, and those that moved
+        for (Eigen::Index i = 0; i < n; ++i)
+            if (relaxed.row(i) != trial.row(i)) asked.push_back(static_cast<int>(i));
+        std::sort(asked.begin(), asked.end());
+        asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
+        find_goals(shell, relaxed, target, options, asked, goals);
+        trial = guarded(shell, relaxed, goals, refused);
+        looking = facing.into(trial);
+        if (looking.size() >= result.flipped.size()) continue;
+        result.flipped = looking;
         result.positions = trial;
     }
     std::set_difference(before.begin(), before.end(), result.flipped.begin(), result.flipped.end(),
