@@ -157,18 +157,18 @@ Fitted run_fit(const Mesh& source, const Mesh& target, const MarkerPairs& marker
     }
     fitted.mesh.positions = result.positions;
     fitted.report["seconds"] = seconds;
-    keep_going(progress, 0.8, "finding places");
-    fitted.map = correspondence(fitted.mesh, target);
-    fitted.report.update(fit_places(fitted.source, fitted.mesh, target, result, fitted.map,
-                                    place_markers(markers.pairs, fitted.source)));
-    keep_going(progress, 0.9, "measuring");
+    keep_going(progress, 0.8, "measuring");
     const Quality quality = measure(fitted.source, fitted.mesh, target, {}, markers.pairs, seed);
+    keep_going(progress, 0.9, "finding places");
+    fitted.map = correspondence(fitted.mesh, target);
+    fitted.report.update(fit_places(fitted.source, fitted.mesh, target, result, fitted.map, quality,
+                                    place_markers(markers.pairs, fitted.source)));
     fitted.report["quality"] = to_json(quality);
     stop_if_interrupted();
     console.note(fmt::format("fit: {:.4f} % to the target, {:.4f} % back, {} flipped of {} faces, {} cuts, {:.2f} s",
-                             quality.fitted_to_target.mean, quality.target_to_fitted.mean, quality.flipped,
-                             quality.triangles, quality.cuts, seconds));
-    if (1000 * quality.flipped > quality.triangles)
+                             quality.fitted_to_target.mean, quality.target_to_fitted.mean, quality.flipped.size(),
+                             quality.triangles, quality.cuts.size(), seconds));
+    if (1000 * std::ssize(quality.flipped) > quality.triangles)
         console.warn(
             "the mesh is folded in places (guards and worst in --report say where); a marker that disagrees with "
             "its neighbours folds it, a few more around the place unfold it");

@@ -235,6 +235,18 @@ TEST_P(Spoilt, SourceOrTargetGivesAResult) {
         }
 }
 
+TEST(Fit, TheOrderOfMarkersChangesNothing) {
+    const Mesh m = sphere(3);
+    Mesh target = sphere(3);
+    target.positions.col(0) *= 1.3;
+    std::vector<Marker> markers;
+    for (int t = 0; t < m.triangles.rows(); t += 90)
+        markers.push_back({"m" + std::to_string(t), {t, {1, 0, 0}}, target.positions.row(m.triangles(t, 0))});
+    const Points one = fit(m, target, markers).positions;
+    std::rotate(markers.begin(), markers.begin() + 5, markers.end());
+    EXPECT_EQ(one, fit(m, target, markers).positions);
+}
+
 TEST(FitErrors, NameTheElementAndTheRemedy) {
     const Pair good;
     Pair pair;

@@ -20,7 +20,7 @@ TEST(Quality, AMeshOnItself) {
     EXPECT_LT(q.fitted_to_target.max, 1e-9);
     EXPECT_LT(q.target_to_fitted.max, 1e-9);
     EXPECT_LT(q.eq7, 1e-20);
-    EXPECT_EQ(q.flipped + q.degenerate + q.cuts + q.cuts_source + q.cuts_target, 0);
+    EXPECT_EQ(std::ssize(q.flipped) + q.degenerate + std::ssize(q.cuts) + q.cuts_source + q.cuts_target, 0);
     EXPECT_NEAR(q.symmetric_dirichlet.max, 4, 1e-9);
     EXPECT_EQ(q.truth_error->max, 0);
     EXPECT_LT(q.marker_error->max, 1e-9);
@@ -45,7 +45,7 @@ TEST(Quality, InsideOutIsFlippedEverywhere) {
     Mesh inside_out = ball;
     inside_out.triangles.col(0).swap(inside_out.triangles.col(1));
     const Quality q = measure(inside_out, inside_out, ball);
-    EXPECT_EQ(q.flipped, ball.triangles.rows());
+    EXPECT_EQ(std::ssize(q.flipped), ball.triangles.rows());
     EXPECT_NEAR(q.flipped_area_percent, 100, 1e-9);
 }
 

@@ -119,6 +119,24 @@ TEST(Session, keeps_the_fit_for_the_next_time) {
     EXPECT_EQ(session->state()["document"]["options"]["fit"]["rounds"], 3);
 }
 
+TEST(Session, fits_without_markers_and_says_that_it_guesses) {
+    House house;
+    const auto session = house.open();
+    session->set_document({{"markers", Json::array()}});
+    session->start_fit(nullptr);
+    session->wait();
+    const Json state = session->state();
+    ASSERT_EQ(state["job"]["state"], "done") << state["job"].dump();
+    EXPECT_NE(state["fit"]["notes"].dump().find("guess"), std::string::npos);
+    const Json next = session->suggestions();
+    ASSERT_EQ(next.size(), 5U);
+    EXPECT_EQ(next[0]["at"], state["fit"]["next_markers"][0]["source"]);
+    EXPECT_EQ(next[0]["target"], state["fit"]["next_markers"][0]["target"]) << "the fit knows where it lies";
+    const Json first{{"id", "a"}, {"name", "a"}, {"source", next[0]["at"]}, {"target", next[0]["target"]}};
+    session->set_document({{"markers", Json::array({first})}});
+    for (const Json& place : session->suggestions()) EXPECT_NE(place["at"], next[0]["at"]) << "it has its marker now";
+}
+
 TEST(Session, a_cancelled_fit_changes_nothing) {
     House house;
     const auto session = house.open();
@@ -167,7 +185,12 @@ TEST(Session, refuses_what_cannot_be_and_keeps_what_was) {
     message_of(ErrorKind::file, [&] { session->open(Side::target, "/etc/passwd"); });
     EXPECT_EQ(session->project_json(), before);
     session->set_document({{"markers", Json::array()}});
-    EXPECT_NE(message_of(ErrorKind::argument, [&] { session->start_fit(nullptr); }).find("needs 3"), std::string::npos);
+    EXPECT_NE(message_of(ErrorKind::argument,
+                         [&] {
+                             session->start_fit({{"method", "paper"}});
+                         })
+                  .find("needs 3"),
+              std::string::npos);
 }
 
 TEST(Session, guesses_and_suggests) {

@@ -29,10 +29,10 @@ const complete = (page) => page.locator('.status.both')
 const markers = (page) => page.evaluate(() => window.studio.store.document.markers)
 const step = (page, name) => page.getByRole('navigation').getByRole('button', { name }).click()
 
-async function importMarkers(page, file) {
+async function importMarkers(page, file, count = 4) {
   const [chooser] = await Promise.all([page.waitForEvent('filechooser'), page.getByRole('button', { name: 'Import…' }).click()])
   await chooser.setFiles(file)
-  await page.waitForFunction(() => window.studio.store.document.markers.length > 3)
+  await page.waitForFunction((count) => window.studio.store.document.markers.length >= count, count)
   await saved(page)
 }
 
@@ -119,6 +119,12 @@ test('import, fit, morph, export, crash, go on', async (t) => {
   await importMarkers(page, file)
   const stored = await complete(page).count()
   assert.ok(stored >= 10)
+  const imported = await markers(page)
+  await page.evaluate(() => window.studio.store.edit('lose one, move one', (d) => ({ ...d, markers: d.markers.slice(1).map((m, i) => (i === 0 ? { ...m, source: m.target } : m)) })))
+  await importMarkers(page, file, stored)
+  const again = await markers(page)
+  const places = (list) => list.map(({ name, source, target }) => ({ name, source, target })).sort((a, b) => (a.name < b.name ? -1 : 1))
+  assert.deepEqual(places(again), places(imported), 'names tell which markers of a file are there already')
   await fit(page)
   await step(page, 'Markers')
   const errors = (await page.locator('td.error').allTextContents()).map((text) => Number(text.replace('<', '')))

@@ -5,17 +5,14 @@
 #include "meshtween/app/report.h"
 #include "meshtween/core/error.h"
 #include "meshtween/core/parallel.h"
-#include "meshtween/fit/correspondence.h"
 #include "meshtween/fit/markers.h"
 #include "meshtween/geometry/measure.h"
 #include "meshtween/io/mesh_io.h"
-#include "meshtween/search/self_intersections.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace meshtween::studio {
 namespace {
@@ -25,12 +22,6 @@ constexpr double largest_stretch = 100; // of a face without area
 
 Json point(const Point& p) {
     return {p[0], p[1], p[2]};
-}
-
-Point face_centre(const Mesh& mesh, Eigen::Index t) {
-    return (mesh.positions.row(mesh.triangles(t, 0)) + mesh.positions.row(mesh.triangles(t, 1)) +
-            mesh.positions.row(mesh.triangles(t, 2))) /
-           3;
 }
 
 // The stretch of one face's map; a reflection cannot be seen here and is listed as a flip.
@@ -60,54 +51,6 @@ Eigen::VectorXd vertex_stretch(const Mesh& from, const Points& to) {
     }
     return (sum.array() / count.array().max(1)).matrix() +
            (count.array() == 0).cast<double>().matrix(); // vertices of no face: 1
-}
-
-Json flipped_faces(const Mesh& fitted, const OpenMesh& target) {
-    Json list = Json::array();
-    const Points normals = triangle_normals(fitted.positions, fitted.triangles);
-    std::vector<char> flipped(std::size_t(fitted.triangles.rows()), 0);
-    parallel_for(fitted.triangles.rows(), [&](Eigen::Index t) {
-        const ClosestPoint there = target.index.closest(face_centre(fitted, t));
-        flipped[std::size_t(t)] =
-            there.found() && normals.row(t).dot(target.index.normals().row(there.where.triangle)) < 0;
-    });
-    for (std::size_t t = 0; t < flipped.size() && list.size() < longest_list; ++t)
-        if (flipped[t]) list.push_back({{"face", t}, {"at", point(face_centre(fitted, Eigen::Index(t)))}});
-    return list;
-}
-
-Json cut_faces(const Mesh& fitted) {
-    Json list = Json::array();
-    for (const auto& [a, b] : self_intersections(fitted.positions, fitted.triangles)) {
-        if (list.size() == longest_list) break;
-        list.push_back({{"faces", {a, b}}, {"at", point((face_centre(fitted, a) + face_centre(fitted, b)) / 2)}});
-    }
-    return list;
-}
-
-// The vertices furthest from the target, none closer to a worse one than a twentieth of the diagonal.
-Json worst_places(const OpenMesh& source, const Fitted& fitted) {
-    constexpr std::size_t wanted = 8;
-    std::vector<Eigen::Index> order(std::size_t(fitted.distance.size()));
-    std::iota(order.begin(), order.end(), Eigen::Index(0));
-    const std::size_t looked_at = std::min<std::size_t>(order.size(), 20000);
-    std::partial_sort(order.begin(), order.begin() + std::ptrdiff_t(looked_at), order.end(),
-                      [&](auto a, auto b) { return fitted.distance[a] > fitted.distance[b]; });
-    Json list = Json::array();
-    std::vector<Point> chosen;
-    for (std::size_t i = 0; i < looked_at && list.size() < wanted; ++i) {
-        const Point at = source.mesh.positions.row(order[i]);
-        const bool apart = std::all_of(chosen.begin(), chosen.end(), [&](const Point& other) {
-            return (other - at).norm() > 0.05 * source.frame.scale;
-        });
-        if (!apart) continue;
-        chosen.push_back(at);
-        list.push_back({{"vertex", order[i]},
-                        {"source", point(at)},
-                        {"fitted", point(fitted.mesh.positions.row(order[i]))},
-                        {"distance", fitted.distance[order[i]]}});
-    }
-    return list;
 }
 
 // Percent of the target's diagonal from where the fit took a marker to where it should be.
@@ -172,8 +115,7 @@ Fitted shown(const OpenMesh& source, const OpenMesh& target, Points positions) {
             100 * std::sqrt(target.index.closest(Point(points.row(i))).squared_distance) / target.frame.scale;
     });
     fitted.stretch = vertex_stretch(source.mesh, points);
-    const std::vector<double> trust = correspondence(fitted.mesh, target.mesh).trust;
-    fitted.trust = Eigen::Map<const Eigen::VectorXd>(trust.data(), std::ssize(trust));
+    fitted.map = correspondence(fitted.mesh, target.mesh);
     return fitted;
 }
 
@@ -184,13 +126,13 @@ Fitted examined(const OpenMesh& source, const OpenMesh& target, const FitResult&
     keep_going(progress, 0.1, "measuring");
     fitted.summary = meshtween::to_json(result);
     fitted.summary["mark"] = mark_of(markers);
-    fitted.summary["quality"] =
-        meshtween::to_json(measure(source.mesh, fitted.mesh, target.mesh, {}, complete_pairs(markers)));
-    keep_going(progress, 0.7, "looking for flips and cuts");
+    const std::vector<MarkerPair> pairs = complete_pairs(markers);
+    const Quality quality = measure(source.mesh, fitted.mesh, target.mesh, {}, pairs);
+    fitted.summary["quality"] = meshtween::to_json(quality);
+    keep_going(progress, 0.7, "finding places");
     fitted.summary["marker_errors"] = marker_errors(source, target, fitted.mesh, markers);
-    fitted.summary["flips"] = flipped_faces(fitted.mesh, target);
-    fitted.summary["cuts"] = cut_faces(fitted.mesh);
-    fitted.summary["worst"] = worst_places(source, fitted);
+    fitted.summary.update(fit_places(source.mesh, fitted.mesh, target.mesh, result, fitted.map, quality,
+                                     place_markers(pairs, source.mesh), longest_list));
     keep_going(progress, 1, "measuring");
     return fitted;
 }

@@ -4,6 +4,7 @@
 #include "frame.h"
 #include "project.h"
 
+#include "meshtween/fit/correspondence.h"
 #include "meshtween/fit/fit.h"
 #include "meshtween/fit/quality.h"
 #include "meshtween/geometry/check.h"
@@ -38,11 +39,11 @@ struct Fitted {
     Mesh mesh;                // the source's mesh on the target's surface
     Eigen::VectorXd distance; // a value a vertex: to the target, percent of its diagonal
     Eigen::VectorXd stretch;  // a value a vertex: of the map source -> fitted, 1 where nothing is stretched
-    Eigen::VectorXd trust;    // a value a vertex, 0..1: see correspondence.h
-    Json summary;             // quality, marker errors by id, flipped faces, cuts, worst places
+    Correspondence map;
+    Json summary; // as a fit's report: quality, guards, worst, next_markers; and marker_errors by id
 };
 
-// Distances, stretch and trust alone.
+// All but the summary.
 Fitted shown(const OpenMesh& source, const OpenMesh& target, Points positions);
 // All of it. Lists hold 200 entries at most.
 Fitted examined(const OpenMesh& source, const OpenMesh& target, const FitResult& result,

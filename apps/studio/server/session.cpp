@@ -58,7 +58,8 @@ void Session::restore() {
             notes_.push_back(error.what());
         }
     }
-    if (project_.fit.is_object() && open_.source && open_.target && fs::exists(fitted_file())) {
+    if (project_.fit.is_object() && project_.fit.contains("guards") && open_.source && open_.target &&
+        fs::exists(fitted_file())) {
         try {
             Mesh saved = read_mesh(access_.checked(fitted_file()));
             if (saved.positions.rows() == open_.source->mesh.positions.rows()) {
@@ -90,12 +91,7 @@ Json Session::project_json() const {
 Json Session::state() const {
     const std::lock_guard lock(mutex_);
     Json paths = Json::array();
-    for (const auto& [key, path] : paths_)
-        paths.push_back({{"key", key},
-                         {"asked", path->asked},
-                         {"parameters", path->curve.parameters},
-                         {"deviation", path->curve.deviation},
-                         {"frame", to_json(path->frame)}});
+    for (const auto& [key, path] : paths_) paths.push_back(told(key, *path));
     Json offered = Json::array();
     for (const SampleInfo& info : samples())
         offered.push_back({{"name", info.name}, {"description", info.description}});
@@ -240,7 +236,7 @@ void Session::set_document(const Json& document) {
     if (!symmetry.is_object() || !timing.is_object() || !options.is_object())
         throw Error(ErrorKind::argument, "symmetry, timing and options must be objects");
     fit_options(options.value("fit", Json::object()));
-    morph_options(options.value("morph", Json::object()));
+    path_options(options.value("morph", Json::object()));
     const std::lock_guard lock(mutex_);
     project_.markers = std::move(markers);
     project_.symmetry = symmetry;

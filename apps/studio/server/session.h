@@ -8,7 +8,7 @@
 #include "project.h"
 #include "suggest.h"
 
-#include "meshtween/morph/curve.h"
+#include "meshtween/morph/keys.h"
 
 #include <map>
 #include <memory>
@@ -23,7 +23,10 @@ struct PlayedPath {
     std::string asked; // the request that it answers
     Frame frame;
     Curve curve;
+    RepairReport repair;
 };
+Json told(const std::string& key,
+          const PlayedPath& path); // {key, asked, parameters, deviation, bent, cuts_left, frame}
 
 class Session {
 public:

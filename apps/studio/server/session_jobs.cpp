@@ -34,21 +34,32 @@ std::string buffer(const Mesh& mesh, const Frame& frame, const std::string& what
 
 // How a path is to be made.
 struct PathWanted {
-    MorphOptions options;
+    KeyOptions options;
     Json timing;
 };
 
 PathWanted path_wanted(const Json& request) {
-    return {morph_options(request.value("options", Json::object())), request.value("timing", Json())};
+    return {path_options(request.value("options", Json::object())), request.value("timing", Json())};
 }
 
-Morph path_between(const Mesh& source, const Fitted& fitted, const PathWanted& wanted, const Progress& progress) {
-    const auto timing = painted_timing(wanted.timing, source);
-    const Morph plain = morph(source, fitted.mesh.positions, wanted.options, progress);
-    return timing ? retimed(plain, *timing) : plain;
+KeyPath path_between(const Mesh& source, const Fitted& fitted, PathWanted wanted, const CurveOptions& curve,
+                     const Progress& progress) {
+    wanted.options.timing = painted_timing(wanted.timing, source);
+    wanted.options.curve = curve;
+    return key_path(source, {source.positions, fitted.mesh.positions}, wanted.options, progress);
 }
 
 } // namespace
+
+Json told(const std::string& key, const PlayedPath& path) {
+    return {{"key", key},
+            {"asked", path.asked},
+            {"parameters", path.curve.parameters},
+            {"deviation", path.curve.deviation},
+            {"bent", path.repair.contacts},
+            {"cuts_left", path.repair.left},
+            {"frame", to_json(path.frame)}};
+}
 
 void Session::start_fit(const Json& values) {
     const FitOptions options = fit_options(values);
@@ -59,10 +70,10 @@ void Session::start_fit(const Json& values) {
         markers = project_.markers;
     }
     const std::size_t complete = complete_pairs(markers).size();
-    if (complete < 3)
+    if (options.method == FitMethod::paper && complete < 3)
         throw Error(ErrorKind::argument,
-                    fmt::format("{} marker{} on both models; a fit needs 3 at least, 30 to 50 serve well", complete,
-                                complete == 1 ? " is" : "s are"));
+                    fmt::format("{} marker{} on both models; the paper's fit needs 3 at least, 30 to 50 serve well",
+                                complete, complete == 1 ? " is" : "s are"));
     start(jobs_, "fit", [this, open, markers, options](const Progress& progress) {
         return run_fit(open, markers, options, progress);
     });
@@ -116,22 +127,17 @@ void Session::start_path(const Json& request) {
     const auto fitted = need_fit();
     const std::string asked = request.dump(), key = hash_of_bytes(asked);
     start(jobs_, "morph", [this, open, fitted, wanted, asked, key](const Progress& progress) -> Json {
-        const Morph morph = path_between(open.source->mesh, *fitted, wanted, part_of(progress, 0, 0.2));
-        if (!keep_going(progress, 0.2, "finding the path")) return nullptr;
+        KeyPath found = path_between(open.source->mesh, *fitted, wanted, played, progress);
+        if (found.curve.cancelled || !keep_going(progress, 1, "finding the path")) return nullptr;
         auto path = std::make_shared<PlayedPath>();
         path->asked = asked;
         path->frame = frame_of(open.source->mesh.positions, open.target->mesh.positions);
-        path->curve = curve(morph, played, part_of(progress, 0.2, 1));
-        if (path->curve.cancelled || !keep_going(progress, 1, "finding the path")) return nullptr;
-        Json told{{"key", key},
-                  {"asked", asked},
-                  {"parameters", path->curve.parameters},
-                  {"deviation", path->curve.deviation},
-                  {"frame", to_json(path->frame)}};
+        path->curve = std::move(found.curve);
+        path->repair = found.repair;
         const std::lock_guard lock(mutex_);
         if (fitted_ != fitted) throw Error(ErrorKind::computation, "the fit changed meanwhile; ask again");
-        paths_[key] = std::move(path);
-        return told;
+        paths_[key] = path;
+        return told(key, *path);
     });
 }
 
@@ -164,9 +170,8 @@ void Session::start_export(const Json& request) {
         if (!stills.empty()) tell(write_still(fitted->mesh, "source's mesh on the target", {}, stills));
         if (!plays.empty()) {
             const Mesh& source = open.source->mesh;
-            const Morph between = path_between(source, *fitted, wanted, part_of(progress, 0, 0.2));
             Playable playable;
-            playable.path = curve(between, {}, part_of(progress, 0.2, 0.7));
+            playable.path = path_between(source, *fitted, wanted, {}, part_of(progress, 0, 0.7)).curve;
             if (playable.path.cancelled) return nullptr;
             playable.mesh = source;
             playable.mesh.positions = playable.path.nodes.front();
@@ -211,7 +216,8 @@ std::string Session::fitted_buffer(const std::string& what) const {
     const auto fitted = need_fit();
     if (what == "distance") return value_bytes(fitted->distance);
     if (what == "stretch") return value_bytes(fitted->stretch);
-    if (what == "trust") return value_bytes(fitted->trust);
+    if (what == "trust")
+        return value_bytes(Eigen::Map<const Eigen::VectorXd>(fitted->map.trust.data(), std::ssize(fitted->map.trust)));
     const Open open = both();
     return buffer(fitted->mesh, frame_of(open.source->mesh.positions, open.target->mesh.positions), what);
 }

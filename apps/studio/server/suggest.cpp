@@ -72,16 +72,16 @@ Point guess(const OpenMesh& to, const Pose& pose, const std::vector<MarkerPair>&
 Json next_places(const OpenMesh& source, const std::vector<PlacedMarker>& markers, const Json& fit) {
     constexpr std::size_t wanted = 5;
     Json places = Json::array();
-    if (fit.is_object() && fit.contains("worst"))
-        for (const Json& worst : fit["worst"]) {
-            const Point at(worst["source"][0], worst["source"][1], worst["source"][2]);
-            const double distance = worst["distance"];
-            if (distance < 0.05 || distance_to_markers(at, markers) < near_marker * source.frame.scale) continue;
-            places.push_back(
-                {{"at", {at[0], at[1], at[2]}}, {"why", fmt::format("the last fit is {:.2g} % off here", distance)}});
-            if (places.size() == wanted) return places;
-        }
     std::vector<PlacedMarker> with_places = markers;
+    if (fit.is_object() && fit.contains("next_markers"))
+        for (const Json& next : fit["next_markers"]) {
+            const Point at(next["source"][0], next["source"][1], next["source"][2]);
+            if (distance_to_markers(at, markers) < near_marker * source.frame.scale) continue;
+            places.push_back({{"at", next["source"]}, {"why", next["why"]}, {"target", next["target"]}});
+            PlacedMarker chosen;
+            chosen.source = at;
+            with_places.push_back(chosen);
+        }
     while (places.size() < wanted) {
         Eigen::Index best = 0;
         double furthest = -1;

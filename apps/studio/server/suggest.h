@@ -19,8 +19,9 @@ Pose pose_of(const OpenMesh& source, const OpenMesh& target);
 // the surface.
 Point guess(const OpenMesh& to, const Pose& pose, const std::vector<MarkerPair>& pairs, Side from, const Point& point);
 
-// Places on the source, the most useful first, with a reason each: [{at, why}, ...]. After a fit the worst places of it
-// that have no marker near; before one, the vertices furthest from all markers.
+// Places on the source, the most useful first, with a reason each and, where a fit knows it, their place on the target:
+// [{at, why, target}, ...]. After a fit those that its report names and that have no marker near yet; before one, the
+// vertices furthest from all markers.
 Json next_places(const OpenMesh& source, const std::vector<PlacedMarker>& markers, const Json& fit);
 
 } // namespace meshtween::studio

@@ -1,11 +1,11 @@
 #include "meshtween/app/report.h"
 
-#include "meshtween/fit/settle.h"
 #include "meshtween/geometry/measure.h"
 
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <array>
 #include <span>
 
 namespace meshtween {
@@ -23,25 +23,35 @@ std::string_view name_of(FitEnd end) {
     return "";
 }
 
-constexpr std::size_t told_at_most = 20; // entries of a list
-
 Json told(const Point& p) {
     return {p[0], p[1], p[2]};
 }
 
-Json told_vertices(const std::vector<int>& vertices, const Mesh& mesh) {
+template <class T>
+std::span<const T> first_of(const std::vector<T>& list, std::size_t most) {
+    return std::span(list).first(std::min(most, list.size()));
+}
+
+Point centre(const Mesh& mesh, int triangle) {
+    return position(mesh.positions, mesh.triangles, {triangle, Point::Constant(1.0 / 3)});
+}
+
+Json told_vertices(const Mesh& mesh, std::span<const int> vertices) {
     Json list = Json::array();
-    for (std::size_t i = 0; i < std::min(vertices.size(), told_at_most); ++i)
-        list.push_back({{"vertex", vertices[i]}, {"at", told(mesh.positions.row(vertices[i]))}});
+    for (const int v : vertices) list.push_back({{"vertex", v}, {"at", told(mesh.positions.row(v))}});
     return list;
 }
 
-Json told_triangles(const std::vector<int>& triangles, const Mesh& mesh) {
+Json told_triangles(const Mesh& mesh, std::span<const int> triangles) {
     Json list = Json::array();
-    for (std::size_t i = 0; i < std::min(triangles.size(), told_at_most); ++i) {
-        const SurfacePoint centre{triangles[i], Point::Constant(1.0 / 3)};
-        list.push_back({{"triangle", triangles[i]}, {"at", told(position(mesh.positions, mesh.triangles, centre))}});
-    }
+    for (const int t : triangles) list.push_back({{"triangle", t}, {"at", told(centre(mesh, t))}});
+    return list;
+}
+
+Json told_pairs(const Mesh& mesh, std::span<const std::array<int, 2>> pairs) {
+    Json list = Json::array();
+    for (const auto& [a, b] : pairs)
+        list.push_back({{"triangles", {a, b}}, {"at", told((centre(mesh, a) + centre(mesh, b)) / 2)}});
     return list;
 }
 
@@ -77,10 +87,10 @@ Json to_json(const Quality& q) {
               {"vertex_to_target", to_json(q.vertex_to_target)},
               {"fitted_to_target", to_json(q.fitted_to_target)},
               {"target_to_fitted", to_json(q.target_to_fitted)},
-              {"flipped_faces", q.flipped},
+              {"flipped_faces", q.flipped.size()},
               {"flipped_area_percent", q.flipped_area_percent},
               {"degenerate_faces", q.degenerate},
-              {"self_intersections", q.cuts},
+              {"self_intersections", q.cuts.size()},
               {"self_intersections_source", q.cuts_source},
               {"self_intersections_target", q.cuts_target},
               {"symmetric_dirichlet", to_json(q.symmetric_dirichlet)}};
@@ -115,7 +125,7 @@ Json describe(const Mesh& mesh) {
 }
 
 Json fit_places(const Mesh& source, const Mesh& fitted, const Mesh& target, const FitResult& result,
-                const Correspondence& map, std::span<const Marker> markers) {
+                const Correspondence& map, const Quality& quality, std::span<const Marker> markers, std::size_t most) {
     const std::vector<WorstPlace> faults = place_faults(source, fitted, map);
     Json worst = Json::array(), next = Json::array();
     for (const WorstPlace& place : worst_places(fitted, faults))
@@ -131,21 +141,21 @@ Json fit_places(const Mesh& source, const Mesh& fitted, const Mesh& target, cons
                         {"vertex", s.place.vertex},
                         {"why", s.place.badness < 0.2 ? "no marker is near" : name_of(s.place.fault)},
                         {"badness", s.place.badness}});
-    const std::vector<int> flipped =
-        flipped_triangles(fitted.positions, fitted.triangles, fit_target(target.positions, target.triangles));
     return {{"guards",
              {{"refused_steps", result.refused_steps},
-              {"refused", told_vertices(result.refused, fitted)},
+              {"refused", told_vertices(fitted, first_of(result.refused, most))},
               {"flips_mended", result.mended.size()},
-              {"mended", told_triangles(result.mended, fitted)},
-              {"flips_left", flipped.size()},
-              {"flipped", told_triangles(flipped, fitted)}}},
+              {"mended", told_triangles(fitted, first_of(result.mended, most))},
+              {"flips_left", quality.flipped.size()},
+              {"flipped", told_triangles(fitted, first_of(quality.flipped, most))},
+              {"cuts_left", quality.cuts.size()},
+              {"cuts", told_pairs(fitted, first_of(quality.cuts, most))}}},
             {"worst", worst},
             {"next_markers", next}};
 }
 
 Json to_json(const PathQuality& quality, const Triangles& triangles, const std::function<Points(double u)>& at) {
-    const auto some = [](const auto& list) { return std::span(list).first(std::min<std::size_t>(20, list.size())); };
+    const auto some = [](const auto& list) { return first_of(list, 20); };
     Json rows = Json::array();
     for (const FrameQuality& frame : quality.frames) {
         Json row{{"u", frame.u},

@@ -25,9 +25,11 @@ Json to_json(const std::vector<Finding>& findings);
 Json describe(const Mesh& mesh); // counts, extent, area, volume and findings
 
 // What a fit's guards did and where, its worst places, and where the next markers should go: "guards", "worst" and
-// "next_markers". Lengths are percent of the target's diagonal, points in the meshes' own units; lists are cut at 20.
+// "next_markers". Lengths are percent of the target's diagonal, points in the meshes' own units; `most`: entries of a
+// list of triangles or vertices.
 Json fit_places(const Mesh& source, const Mesh& fitted, const Mesh& target, const FitResult& result,
-                const Correspondence& map, std::span<const Marker> markers);
+                const Correspondence& map, const Quality& quality, std::span<const Marker> markers,
+                std::size_t most = 20);
 
 // A row a frame: volume and area, also against the straight line between the ends; edge strain, the relative difference
 // between an edge's length and the blend of its lengths at both ends, in percent; how many triangles are flipped and

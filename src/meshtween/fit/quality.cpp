@@ -61,7 +61,7 @@ void count_flips(const Mesh& fitted, const Mesh& target, const ClosestPointIndex
         quality.degenerate += n.norm() < tiny;
         area += n.norm();
         if (n.dot(m) >= 0) continue;
-        ++quality.flipped;
+        quality.flipped.push_back(static_cast<int>(t));
         flipped_area += n.norm();
     }
     quality.flipped_area_percent = area > 0 ? 100 * flipped_area / area : 0;
@@ -94,8 +94,8 @@ std::vector<double> symmetric_dirichlet(const Mesh& source, const Mesh& fitted) 
     return result;
 }
 
-long cuts(const Mesh& mesh) {
-    return std::ssize(self_intersections(mesh.positions, mesh.triangles));
+std::vector<std::array<int, 2>> cuts(const Mesh& mesh) {
+    return self_intersections(mesh.positions, mesh.triangles);
 }
 
 void require_same_mesh(const Mesh& source, const Mesh& fitted, const Points& truth) {
@@ -143,7 +143,7 @@ Quality measure(const Mesh& source, const Mesh& fitted, const Mesh& target, cons
     q.fitted_to_target = statistics(distances(surface_samples(fitted, seed), on_target, percent));
     q.target_to_fitted = statistics(distances(surface_samples(target, seed), on_fitted, percent));
     count_flips(fitted, target, on_target, q);
-    q.cuts = cuts(fitted), q.cuts_source = cuts(source), q.cuts_target = cuts(target);
+    q.cuts = cuts(fitted), q.cuts_source = std::ssize(cuts(source)), q.cuts_target = std::ssize(cuts(target));
     q.symmetric_dirichlet = statistics(symmetric_dirichlet(source, fitted));
     if (truth.rows() > 0) {
         std::vector<double> errors;

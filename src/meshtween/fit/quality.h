@@ -4,6 +4,7 @@
 #include "meshtween/core/mesh.h"
 #include "meshtween/io/markers.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -24,16 +25,17 @@ struct Quality {
     Statistics vertex_to_target; // every vertex of the fitted mesh
     Statistics fitted_to_target; // 100,000 points spread evenly over the fitted surface
     Statistics target_to_fitted; // and over the target's
-    long flipped = 0;            // faces whose normal opposes the target's at the point closest to their centre
+    std::vector<int> flipped;    // faces whose normal opposes the target's at the point closest to their centre
     double flipped_area_percent = 0;
-    long degenerate = 0; // faces with less than 1e-14 of the diagonal squared as double area
-    long cuts = 0, cuts_source = 0, cuts_target = 0; // pairs of faces that cut each other
+    long degenerate = 0;                   // faces with less than 1e-14 of the diagonal squared as double area
+    std::vector<std::array<int, 2>> cuts;  // pairs of faces that cut each other
+    long cuts_source = 0, cuts_target = 0; // how many there are in the source and in the target itself
     Statistics symmetric_dirichlet; // of each face's map source -> fitted: s1^2 + s2^2 + 1/s1^2 + 1/s2^2, 4 an isometry
     std::optional<Statistics> truth_error, marker_error;
 };
 
-// `truth`: n x 3, where each vertex should be, empty if not known; `markers`: pairs to score, empty for none. Throws
-// `seed`: of the sample points. Error(argument) where the meshes do not belong together.
+// `truth`: n x 3, where each vertex should be, empty if not known; `markers`: pairs to score, empty for none; `seed`:
+// of the sample points. Throws Error(argument) where the meshes do not belong together.
 Quality measure(const Mesh& source, const Mesh& fitted, const Mesh& target, const Points& truth = {},
                 std::span<const MarkerPair> markers = {}, std::uint32_t seed = 12345);
 

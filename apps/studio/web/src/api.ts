@@ -48,7 +48,7 @@ export const api = {
   cancel: () => post('api/cancel'),
   takeOver: () => post(`api/take-over?${query({ tab })}`),
   guess: (from: Side, points: Vec3[]) => post<Vec3[]>(`api/guess?${query({ from })}`, JSON.stringify(points)),
-  suggestions: () => get<{ at: Vec3; why: string }[]>('api/suggestions'),
+  suggestions: () => get<{ at: Vec3; why: string; target?: Vec3 }[]>('api/suggestions'),
   importMarkers: (files: File[]) =>
     post<{ pairs: { name: string; source: Vec3; target: Vec3 }[]; notes: string[] }>(
       `api/markers/import?${query(

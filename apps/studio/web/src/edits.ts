@@ -86,13 +86,17 @@ export function move(document: Document, id: string, by: number): Document {
   return withMarkers(document, markers)
 }
 
-export function append(document: Document, pairs: { name: string; source: Vec3; target: Vec3 }[]): Document {
+// Pairs from a file: a marker of the same name is set to them, unless it is locked; the others are new.
+export function merge(document: Document, pairs: { name: string; source: Vec3; target: Vec3 }[]) {
   let after = document
-  for (const pair of pairs) {
-    const marker = { id: newId(after), name: pair.name, source: pair.source, target: pair.target, locked: false }
-    after = withMarkers(after, [...after.markers, marker])
+  const counts = { added: 0, moved: 0, locked: 0 }
+  for (const { name, source, target } of pairs) {
+    const known = document.markers.find((marker) => marker.name === name)
+    if (known?.locked) ++counts.locked
+    else if (known) (after = update(after, known.id, { source, target })), ++counts.moved
+    else (after = withMarkers(after, [...after.markers, { id: newId(after), name, source, target, locked: false }])), ++counts.added
   }
-  return after
+  return { after, ...counts }
 }
 
 export function setOption(document: Document, of: 'fit' | 'morph', name: string, value: number | string): Document {

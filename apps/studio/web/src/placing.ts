@@ -174,7 +174,7 @@ export async function suggestNext() {
     await app.saver.flush()
     const [best] = await api.suggestions()
     if (!best) return
-    const [at] = await api.guess('source', [best.at])
+    const at = best.target ?? (await api.guess('source', [best.at]))[0]
     app.selected = null
     Object.assign(ghosts, {
       list: [{ side: 'source', at: best.at }, { side: 'target', at }],

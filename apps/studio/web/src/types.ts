@@ -76,9 +76,11 @@ export interface FitSummary {
     [name: string]: unknown
   }
   marker_errors: Record<string, number>
-  flips: { face: number; at: Vec3 }[]
-  cuts: { faces: [number, number]; at: Vec3 }[]
-  worst: { vertex: number; source: Vec3; fitted: Vec3; distance: number }[]
+  guards: {
+    flipped: { triangle: number; at: Vec3 }[]
+    cuts: { triangles: [number, number]; at: Vec3 }[]
+  }
+  worst: { vertex: number; fault: string; value: number; source: Vec3; fitted: Vec3 }[]
   notes?: string[]
 }
 
@@ -91,6 +93,7 @@ export interface OptionRow {
   min?: number
   max?: number
   choices?: string[]
+  when?: [string, string] // another option and its choice without which this one says nothing
 }
 
 export interface PathInfo {
@@ -98,6 +101,8 @@ export interface PathInfo {
   asked: string // the request that it answers
   parameters: number[]
   deviation: number
+  bent: number // places that were moved aside because they cut each other on the way
+  cuts_left: number // places that still do
   frame: Frame
 }
 

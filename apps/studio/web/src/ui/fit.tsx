@@ -55,8 +55,13 @@ export function HeatLegend() {
 // The lists hold the first of what there is.
 const counted = (all: number, listed: number, what: string) => (all > listed ? `${all} ${what}, the first ${listed}` : `${listed} ${what}`)
 
+function worstText({ vertex, fault, value }: FitSummary['worst'][number]) {
+  const size = { 'facing away': '', stretched: ` ${figure(value)} times` }[fault] ?? ` ${figure(value)} %`
+  return `vertex ${vertex}: ${fault}${size}`
+}
+
 function Outcome({ fit }: { fit: FitSummary }) {
-  const { quality } = fit
+  const { quality, guards } = fit
   return (
     <Section title="Outcome" aside={app.stale ? 'markers have changed since' : undefined}>
       <div class="figures">
@@ -76,9 +81,9 @@ function Outcome({ fit }: { fit: FitSummary }) {
         ]}
         onChange={chooseHeat}
       />
-      <Places title={counted(fit.quality.flipped_faces, fit.flips.length, 'flipped faces')} list={fit.flips.length ? fit.flips.map((flip) => ({ text: `face ${flip.face}`, at: flip.at })) : []} />
-      <Places title={counted(fit.quality.self_intersections, fit.cuts.length, 'cuts')} list={fit.cuts.map((cut) => ({ text: `${cut.faces[0]} × ${cut.faces[1]}`, at: cut.at }))} />
-      <Places title="Worst places" list={fit.worst.map((place) => ({ text: `vertex ${place.vertex}: ${figure(place.distance)} %`, at: place.fitted }))} />
+      <Places title={counted(quality.flipped_faces, guards.flipped.length, 'flipped faces')} list={guards.flipped.map((flip) => ({ text: `face ${flip.triangle}`, at: flip.at }))} />
+      <Places title={counted(quality.self_intersections, guards.cuts.length, 'cuts')} list={guards.cuts.map((cut) => ({ text: cut.triangles.join(' × '), at: cut.at }))} />
+      <Places title="Worst places" list={fit.worst.map((place) => ({ text: worstText(place), at: place.fitted }))} />
       {fit.notes?.map((note) => (
         <small class="warn" key={note}>
           {note}
@@ -92,6 +97,7 @@ export function FitPanel() {
   const fit = app.state?.fit
   const complete = app.store.document.markers.filter(isComplete).length
   const running = app.running && app.job.kind === 'fit'
+  const ready = app.info('source') && app.info('target')
   return (
     <>
       <Section title="Fit" aside={`${complete} markers`}>
@@ -104,11 +110,11 @@ export function FitPanel() {
             </Button>
           </>
         ) : (
-          <Button primary disabled={complete < 3 || app.running || app.readOnly} onClick={() => void startFit()}>
+          <Button primary disabled={!ready || app.running || app.readOnly} onClick={() => void startFit()}>
             {fit ? 'Fit again' : 'Fit'}
           </Button>
         )}
-        {complete < 3 && <small class="warn">Place {3 - complete} more markers on both models first.</small>}
+        {complete < 3 && <small class="warn">With fewer than three markers on both models, turn and size are a guess; 30 to 50 serve well.</small>}
         <details>
           <summary>Options</summary>
           <OptionForm of="fit" rows={app.state?.schema.fit ?? []} />

@@ -107,8 +107,8 @@ export function MarkersPanel() {
       <Section title="Markers" aside={`${complete} of ${markers.length} on both`}>
         {markers.length === 0 ? (
           <p class="hint">
-            Click a place on the source, then the same place on the target: nose, chin, corners of the eyes. Three are
-            needed, 30 to 50 serve well.
+            Click a place on the source, then the same place on the target: nose, chin, corners of the eyes. 30 to 50
+            serve well; with fewer than three the fit has to guess how the models lie.
           </p>
         ) : (
           <div class="table">
@@ -178,8 +178,8 @@ export function MarkersPanel() {
           </select>
         </div>
       </Section>
-      <Button primary disabled={complete < 3} onClick={() => app.set({ step: 'fit' })} title={complete < 3 ? 'Three markers on both models are needed' : ''}>
-        {complete < 3 ? `Fit: ${3 - complete} more needed` : 'Go on to the fit'}
+      <Button primary={complete >= 3} disabled={!ready} onClick={() => app.set({ step: 'fit' })}>
+        Go on to the fit
       </Button>
     </>
   )

@@ -7,6 +7,8 @@ import { heatGradient } from '../scene/heat'
 import { onTick, paths, play, player, seek, startMorph, stopComparing, type Player } from '../work'
 import { Button, figure, JobBar, OptionForm, Section, useApp } from './parts'
 
+const places = (count: number) => (count === 1 ? 'one place' : `${count} places`)
+
 export function MorphPanel() {
   const rows = app.state?.schema.morph ?? []
   const methods = rows.find((row) => row.name === 'method')?.choices ?? []
@@ -44,8 +46,10 @@ export function MorphPanel() {
         {paths.main && (
           <small>
             Played from {paths.main.parameters.length} meshes, {figure(100 * paths.main.deviation)} % off the path at most.
+            {paths.main.bent > 0 && ` Bent in ${places(paths.main.bent)} where it would cut itself.`}
           </small>
         )}
+        {paths.main && paths.main.cuts_left > 0 && <small class="warn">It cuts itself in {places(paths.main.cuts_left)} on the way.</small>}
       </Section>
       {paths.main && (
         <Section title="Side by side">

@@ -1,7 +1,7 @@
 // Opening models, samples and projects: by dialogue, or dropped on the page.
 import { api, download } from '../api'
 import { app } from '../app'
-import { append } from '../edits'
+import { merge } from '../edits'
 import { sides, type Side } from '../types'
 import { Button, chooseFiles, count, Section } from './parts'
 
@@ -21,9 +21,11 @@ const openProject = (file: File) =>
 export const importMarkers = (files: File[]) =>
   app.attempt(async () => {
     const { pairs, notes } = await api.importMarkers(files.slice(0, 2))
-    if (pairs.length) app.store.edit(`import ${pairs.length} markers`, (d) => append(d, pairs))
+    const { after, added, moved, locked } = merge(app.store.document, pairs)
+    if (added + moved > 0) app.store.edit(`import ${pairs.length} markers`, () => after)
     for (const note of notes) app.toast(note, true)
-    app.toast(`${pairs.length} markers added from ${files.map((file) => file.name).join(' and ')}.`)
+    const told = [`${added} markers added`, moved && `${moved} of the same name moved`, locked && `${locked} locked ones left`]
+    app.toast(`${told.filter(Boolean).join(', ')}, from ${files.map((file) => file.name).join(' and ')}.`)
     app.set({ step: 'markers' })
   }, 'Reading markers')
 

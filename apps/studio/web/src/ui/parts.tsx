@@ -87,10 +87,13 @@ export function Field({ value, commit, ...rest }: { value: string | number; comm
 // Options as the program describes them, each with its one line of explanation.
 export function OptionForm({ of, rows }: { of: 'fit' | 'morph'; rows: OptionRow[] }) {
   const { store } = app
+  const valueOf = (row: OptionRow) => store.document.options[of][row.name] ?? row.default
+  const all = app.state?.schema[of] ?? []
+  const matters = ({ when }: OptionRow) => !when || all.some((row) => row.name === when[0] && valueOf(row) === when[1])
   return (
     <div class="options">
-      {rows.map((row) => {
-        const value = store.document.options[of][row.name] ?? row.default
+      {rows.filter(matters).map((row) => {
+        const value = valueOf(row)
         const set = (next: number | string) => store.edit(`set ${row.label}`, (d) => setOption(d, of, row.name, next))
         return (
           <label key={row.name} class="option">
