@@ -166,9 +166,14 @@ protected:
             pairs.push_back({"m" + std::to_string(i), exchange ? t : Point(s * change.transpose()), exchange ? s : t});
         }
         write_marker_pairs(pairs, scratch.path("a.csv"));
-        const MarkerPairs markers = read_marker_pairs(scratch.path("a.csv"), source, target);
-        EXPECT_EQ(markers.pairs.size(), 9u);
-        return markers.notes.empty() ? "" : markers.notes[0];
+        try {
+            const MarkerPairs markers = read_marker_pairs(scratch.path("a.csv"), source, target);
+            EXPECT_EQ(markers.pairs.size(), 9u);
+            return markers.notes.empty() ? "" : markers.notes[0];
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::file);
+            return std::string("stopped: ") + error.what();
+        }
     }
 };
 
@@ -187,6 +192,9 @@ TEST_F(OffMesh, TheCauseIsFound) {
     EXPECT_NE(both.find("multiply all by 0.001"), std::string::npos) << both;
     EXPECT_NE(note(identity, true).find("exchanged"), std::string::npos) << note(identity, true);
     EXPECT_NE(note(identity * 7).find("see whether they belong to this model"), std::string::npos);
+    EXPECT_EQ(note(identity * 7).find("stopped: "), 0u) << "markers of another model are no markers";
+    EXPECT_NE(note(identity * 1.1).find("markers lie further"), std::string::npos);
+    EXPECT_EQ(note(identity * 1.1).find("stopped: "), std::string::npos) << note(identity * 1.1);
     EXPECT_NE(note(identity * 7).find("9 of 9 markers lie further from the source"), std::string::npos);
 }
 

@@ -17,7 +17,7 @@
 namespace meshtween {
 namespace {
 
-constexpr double far_away = 0.05; // of the diagonal
+constexpr double far_away = 0.05, elsewhere = 0.25; // of the diagonal
 
 // A mesh's surface by some of its triangles, spread over all of it. Enough to tell 5 % of the diagonal, and quick.
 class Surface {
@@ -121,15 +121,18 @@ std::string likely_remedy(const Points& places, const Surface& own, const Surfac
 }
 
 void note_side(const std::vector<MarkerPair>& pairs, Point MarkerPair::*side, const char* name, const Surface& own,
-               const Surface& other, const char* other_name, std::vector<std::string>& notes) {
+               const Surface& other, const char* other_name, MarkerDistances& result) {
     Points places(static_cast<Eigen::Index>(pairs.size()), 3);
     for (std::size_t i = 0; i < pairs.size(); ++i) places.row(static_cast<Eigen::Index>(i)) = pairs[i].*side;
     const std::vector<char> near = near_flags(places, own);
     std::vector<std::string> names;
     double farthest = 0;
+    std::size_t far_off = 0;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         if (near[i] != 0) continue;
-        farthest = std::max(farthest, own.distance(places.row(static_cast<Eigen::Index>(i))));
+        const double distance = own.distance(places.row(static_cast<Eigen::Index>(i)));
+        farthest = std::max(farthest, distance);
+        far_off += distance > elsewhere ? 1 : 0;
         if (names.size() < 5) names.push_back(pairs[i].name);
     }
     if (names.empty()) return;
@@ -137,7 +140,8 @@ void note_side(const std::vector<MarkerPair>& pairs, Point MarkerPair::*side, co
     const bool few = 2 * far_count < std::ssize(near); // a wrong unit or axis moves most of them
     const std::string remedy =
         few ? "see whether they are where they should be" : likely_remedy(places, own, other, other_name);
-    notes.push_back(
+    result.elsewhere |= 2 * far_off > pairs.size();
+    result.notes.push_back(
         fmt::format("{} of {} markers lie further from the {} than 5 % of its diagonal, up to {:.3g} % ({}{}): {}",
                     far_count, pairs.size(), name, 100 * farthest, fmt::join(names, ", "),
                     far_count > static_cast<std::ptrdiff_t>(names.size()) ? ", ..." : "", remedy));
@@ -145,13 +149,13 @@ void note_side(const std::vector<MarkerPair>& pairs, Point MarkerPair::*side, co
 
 } // namespace
 
-std::vector<std::string> distance_notes(const std::vector<MarkerPair>& pairs, const Mesh& source, const Mesh& target) {
-    std::vector<std::string> notes;
-    if (pairs.empty() || source.triangles.rows() == 0 || target.triangles.rows() == 0) return notes;
+MarkerDistances marker_distances(const std::vector<MarkerPair>& pairs, const Mesh& source, const Mesh& target) {
+    MarkerDistances result;
+    if (pairs.empty() || source.triangles.rows() == 0 || target.triangles.rows() == 0) return result;
     const Surface on_source(source), on_target(target);
-    note_side(pairs, &MarkerPair::source, "source", on_source, on_target, "target", notes);
-    note_side(pairs, &MarkerPair::target, "target", on_target, on_source, "source", notes);
-    return notes;
+    note_side(pairs, &MarkerPair::source, "source", on_source, on_target, "target", result);
+    note_side(pairs, &MarkerPair::target, "target", on_target, on_source, "source", result);
+    return result;
 }
 
 } // namespace meshtween

@@ -121,7 +121,9 @@ MarkerPairs finish(Collector collector, const Mesh& source, const Mesh& target, 
         result.notes.push_back(fmt::format("{} markers have no place on one side and are left out: {}",
                                            collector.missing.size(), some_of(collector.missing)));
     settle_coincident(result, source, target, path);
-    for (std::string& note : distance_notes(result.pairs, source, target)) result.notes.push_back(std::move(note));
+    MarkerDistances distances = marker_distances(result.pairs, source, target);
+    if (distances.elsewhere) bad_file(path, fmt::format("{}", fmt::join(distances.notes, "; and ")));
+    for (std::string& note : distances.notes) result.notes.push_back(std::move(note));
     return result;
 }
 

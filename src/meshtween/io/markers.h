@@ -24,8 +24,8 @@ struct MarkerPairs {
 // One file for both sides. Names pairs by the file's names, else by their number from 1. Index and barycentric formats
 // are resolved on the meshes, counted from 0. Pairs with a missing side, and pairs that say the same as another, are
 // left out and told in the notes; so are markers that lie off their mesh, with the likely cause. Throws Error(file)
-// naming file and line: a name that comes twice, an index out of range, two pairs that contradict each other. How many
-// markers are enough is for the fit to say.
+// naming file and line: a name that comes twice, an index out of range, two pairs that contradict each other, markers
+// most of which lie further from their mesh than a quarter of its diagonal. How many are enough is for the fit to say.
 MarkerPairs read_marker_pairs(const std::filesystem::path& path, const Mesh& source, const Mesh& target);
 
 // One file a side, matched by name (by order where neither has names; then their numbers must agree).
