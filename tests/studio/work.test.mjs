@@ -79,6 +79,11 @@ test('place six, undo two, reload, find the rest', async (t) => {
   assert.deepEqual(await markers(page), before)
   assert.equal(await rows(page).count(), 5)
   assert.equal(await rows(page).first().locator('input').inputValue(), 'nose')
+  await page.locator('[data-view=source]').focus()
+  await page.keyboard.press('Control+z')
+  assert.notEqual(await rows(page).first().locator('input').inputValue(), 'nose', 'undo reaches back over the reload')
+  await page.keyboard.press('Control+Shift+z')
+  assert.deepEqual(await markers(page), before)
 
   // Dragging turns the view; a marker moves only when it is selected and not locked.
   await page.keyboard.press('Escape')

@@ -174,6 +174,7 @@ class App {
       }
       if (JSON.stringify(told) !== JSON.stringify(this.store.document)) this.store.replace(told)
     }
+    if (first) this.keepHistory(state.project.file)
     if (document) this.fitPlaces = state.fit_is_of_these_markers ? placesOf(this.store.document) : null
     for (const note of state.notes) this.toast(note, true)
     await Promise.all(sides.map((side) => this.loadMesh(side)))
@@ -182,6 +183,23 @@ class App {
     if (first && state.fit) this.shown.add('result')
     this.changed()
     this.stage.draw()
+  }
+
+  // Undo reaches back over a reload of the page.
+  private keepHistory(project: string) {
+    const name = `history of ${project}`
+    try {
+      this.store.recall(sessionStorage.getItem(name) ?? '{}')
+    } catch {
+      // nothing that can be read
+    }
+    addEventListener('pagehide', () => {
+      try {
+        sessionStorage.setItem(name, this.store.history())
+      } catch {
+        // too long to keep
+      }
+    })
   }
 
   private async loadMesh(side: Side) {

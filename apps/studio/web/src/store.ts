@@ -8,12 +8,22 @@ interface Edit {
   key?: string // edits in a row with one key (a drag) become one
 }
 
+const longestHistory = 100 // edits that outlive a reload
+
 export const emptyDocument = (): Document => ({
   markers: [],
   symmetry: { on: false, axis: 0, source: 0, target: 0 },
   timing: { dabs: [] },
   options: { fit: {}, morph: {} },
 })
+
+// Text that is the same for the same values, whatever the order of their names.
+const inOrder = (value: unknown) =>
+  JSON.stringify(value, (_, inner) =>
+    inner && typeof inner === 'object' && !Array.isArray(inner)
+      ? Object.fromEntries(Object.entries(inner).sort(([a], [b]) => (a < b ? -1 : 1)))
+      : inner,
+  )
 
 export class Store {
   document = emptyDocument()
@@ -72,6 +82,20 @@ export class Store {
     this.past = []
     this.future = []
     this.show(document, false)
+  }
+
+  // What can be undone and done again, for whoever goes on with this document.
+  history(): string {
+    const sealed = (edits: Edit[]) => edits.slice(-longestHistory).map((edit) => ({ ...edit, key: undefined }))
+    return JSON.stringify({ of: this.document, past: sealed(this.past), future: sealed(this.future) })
+  }
+
+  // Takes up a history where it is of this very document.
+  recall(history: string) {
+    const { of, past, future } = JSON.parse(history)
+    if (inOrder(of) !== inOrder(this.document)) return
+    this.past = past
+    this.future = future
   }
 
   private show(document: Document, edited = true) {
