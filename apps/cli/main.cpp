@@ -1,14 +1,47 @@
 // meshtween: morph one 3D shape into another, from the command line.
 #include "console.h"
 #include "inputs.h"
-#include "meshtween/core/version.h"
+#include "spelling.h"
 
 #include "meshtween/core/error.h"
 #include "meshtween/core/parallel.h"
+#include "meshtween/core/version.h"
 
 #include <fmt/format.h>
 
 #include <new>
+
+namespace {
+
+std::string perhaps(const std::string& word, const std::vector<std::string>& names) {
+    const std::string name = nearest_name(word, names);
+    return name.empty() ? "" : fmt::format("; did you mean {}?", name);
+}
+
+std::string no_such_verb(const CLI::App& app, const std::string& word) {
+    std::vector<std::string> names;
+    for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
+        names.push_back(verb->get_name());
+    return fmt::format("there is no verb \"{}\"{}\nmeshtween --help lists them", word, perhaps(word, names));
+}
+
+// An option that does not exist is told before what is missing: it is mostly the same thing.
+std::string misused(const CLI::App& app, const CLI::App& verb, const std::string& problem) {
+    std::vector<std::string> names;
+    for (const CLI::App* taker : {&verb, &app})
+        for (const CLI::Option* option : taker->get_options())
+            for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    std::string what = problem;
+    for (const CLI::App* taker : {&verb, &app})
+        for (const std::string& word : taker->remaining()) {
+            const std::string name = word.substr(0, word.find('='));
+            if (name.starts_with("--"))
+                what = fmt::format("{} has no option {}{}", verb.get_name(), name, perhaps(name, names));
+        }
+    return fmt::format("{}\nmeshtween {} --help tells more", what, verb.get_name());
+}
+
+} // namespace
 
 int main(int argc, char** argv) {
     CLI::App app{
@@ -40,12 +73,11 @@ int main(int argc, char** argv) {
         return app.exit(done);
     } catch (const CLI::ParseError& error) {
         const auto verbs = app.get_subcommands();
-        if (verbs.empty() && !app.remaining().empty())
-            fmt::print(stderr, "meshtween: there is no verb \"{}\"\nmeshtween --help lists them\n",
-                       app.remaining().front());
-        else
-            fmt::print(stderr, "meshtween: {}\nmeshtween {}--help tells more\n", error.what(),
-                       verbs.empty() ? "" : verbs.front()->get_name() + " ");
+        const std::string what = !verbs.empty() ? misused(app, *verbs.front(), error.what())
+                                 : !app.remaining().empty()
+                                     ? no_such_verb(app, app.remaining().front())
+                                     : fmt::format("{}\nmeshtween --help tells more", error.what());
+        fmt::print(stderr, "meshtween: {}\n", what);
         return 1;
     } catch (const Interrupted&) {
         fmt::print(stderr, "meshtween: stopped; no unfinished file was left\n");
