@@ -377,6 +377,25 @@ TEST(ClosestPoint, AWarmHintFindsWhatACleanSearchFinds) {
     }
 }
 
+TEST(ClosestPoint, AMovedMeshAnswersAsANewOne) {
+    for (const Mesh& mesh : {sheet(20, 0.2), soup(800, 73, 2), slivers(600, 79)}) {
+        ClosestPointIndex index(mesh.positions, mesh.triangles, MeshIs::moving);
+        Points moved = mesh.positions;
+        for (Eigen::Index i = 0; i < moved.rows(); ++i)
+            moved.row(i) += 0.3 * Point(std::sin(3 * moved(i, 1)), std::cos(2 * moved(i, 2)), std::sin(moved(i, 0)));
+        index.move(moved);
+        const ClosestPointIndex fresh(moved, mesh.triangles);
+        const Points queries = random_points(1000, 1.2, 37), normals = random_points(1000, 1, 41);
+        for (Eigen::Index i = 0; i < queries.rows(); ++i) {
+            const Point query = queries.row(i);
+            const Compatible compatible{normals.row(i).normalized(), 0};
+            expect_same_bits(index.closest(query), fresh.closest(query));
+            expect_same_bits(index.closest(query, compatible, 0.4, static_cast<int>(i % mesh.triangles.rows())),
+                             fresh.closest(query, compatible, 0.4));
+        }
+    }
+}
+
 TEST(ClosestPoint, BadMeshesAreTold) {
     EXPECT_THROW(ClosestPointIndex(Points(0, 3), Triangles(0, 3)), Error);
     Mesh mesh = sheet(2, 0);
@@ -385,6 +404,9 @@ TEST(ClosestPoint, BadMeshesAreTold) {
     mesh = sheet(2, 0);
     mesh.positions(4, 1) = std::nan("");
     EXPECT_THROW(ClosestPointIndex{mesh}, Error);
+    mesh = sheet(2, 0);
+    ClosestPointIndex index(mesh);
+    EXPECT_THROW(index.move(mesh.positions.topRows(3)), Error);
 }
 
 } // namespace

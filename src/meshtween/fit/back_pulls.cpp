@@ -24,8 +24,8 @@ std::size_t idx(std::ptrdiff_t i) {
 
 // What an open mesh is nearest to with its rim may lie beyond it: nothing is found for that.
 ClosestPoint place_on_open(const ClosestPointIndex& index, const Shell& shell, const Point& from, const Point& normal,
-                           double reach) {
-    const ClosestPoint closest = index.closest(from);
+                           double reach, int hint) {
+    const ClosestPoint closest = index.closest(from, hint);
     const int t = closest.where.triangle;
     if (closest.squared_distance > reach * reach || index.normals().row(t).dot(normal) <= 0) return {};
     for (int k = 0; k < 3; ++k)
@@ -36,19 +36,26 @@ ClosestPoint place_on_open(const ClosestPointIndex& index, const Shell& shell, c
 } // namespace
 
 void add_back_pulls(const Shell& shell, const Points& positions, const FitTarget& target, double weight, double reach,
-                    std::vector<Eigen::Matrix3d>& blocks, Points& right) {
-    const ClosestPointIndex index(positions, shell.triangles);
+                    RelaxMemory& memory, std::vector<Eigen::Matrix3d>& blocks, Points& right) {
+    if (memory.positions)
+        memory.positions->move(positions);
+    else
+        memory.positions = std::make_unique<ClosestPointIndex>(positions, shell.triangles, MeshIs::moving);
+    const ClosestPointIndex& index = *memory.positions;
     const auto& rim = shell.topology.on_boundary;
     const bool open = std::find(rim.begin(), rim.end(), 1) != rim.end();
     const Eigen::Index all = target.positions.rows(),
                        step = std::max<Eigen::Index>(1, all / std::max<Eigen::Index>(least_samples, positions.rows()));
     std::vector<ClosestPoint> places(idx((all + step - 1) / step));
+    memory.back_places.resize(places.size(), -1);
     parallel_for(
         static_cast<std::ptrdiff_t>(places.size()),
         [&](std::ptrdiff_t k) {
             const Point from = target.positions.row(k * step), normal = target.normals.row(k * step);
-            places[idx(k)] = open ? place_on_open(index, shell, from, normal, reach)
-                                  : index.closest(from, Compatible{normal, 0}, reach);
+            int& last = memory.back_places[idx(k)];
+            places[idx(k)] = open ? place_on_open(index, shell, from, normal, reach, last)
+                                  : index.closest(from, Compatible{normal, 0}, reach, last);
+            if (places[idx(k)].found()) last = places[idx(k)].where.triangle;
         },
         64);
     std::vector<Eigen::Matrix3d> drawn(blocks.size(), Eigen::Matrix3d::Zero());

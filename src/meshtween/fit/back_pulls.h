@@ -15,6 +15,6 @@ namespace meshtween {
 // vertex is drawn by more than `weight` times its share of the area. What lies beyond an open mesh's border does not
 // pull.
 void add_back_pulls(const Shell& shell, const Points& positions, const FitTarget& target, double weight, double reach,
-                    std::vector<Eigen::Matrix3d>& blocks, Points& right);
+                    RelaxMemory& memory, std::vector<Eigen::Matrix3d>& blocks, Points& right);
 
 } // namespace meshtween

@@ -219,7 +219,7 @@ bool on_border(const FitTarget& target, const SurfacePoint& p) {
 }
 
 Relaxed relax(const ShellLevels& shells, std::size_t level, const Points& positions, const FitTarget& target,
-              const RelaxWeights& weights, std::vector<int>& hints) {
+              const RelaxWeights& weights, RelaxMemory& memory) {
     const Shell& shell = shells.shells[level];
     const auto n = positions.rows();
     Relaxed result{positions, std::vector<double>(idx(n), 0.0), 0};
@@ -231,14 +231,15 @@ Relaxed relax(const ShellLevels& shells, std::size_t level, const Points& positi
     add_pins(shell, shells.pins[level], frames, weights.pins, right);
     if (weights.closeness > 0) {
         const Points normals = vertex_normals(positions, shell.triangles);
-        hints.resize(idx(n), -1);
+        memory.places.resize(idx(n), -1);
         parallel_for(
             n,
             [&](std::ptrdiff_t i) {
                 const Compatible compatible{normals.row(i), weights.least_cosine};
+                int& place = memory.places[idx(i)];
                 const ClosestPoint closest =
-                    target.index.closest(Point(positions.row(i)), compatible, weights.reach, hints[idx(i)]);
-                if (closest.found()) hints[idx(i)] = closest.where.triangle;
+                    target.index.closest(Point(positions.row(i)), compatible, weights.reach, place);
+                if (closest.found()) place = closest.where.triangle;
                 const Pull p = pull(target, closest, normals.row(i), shell.topology.on_boundary[idx(i)],
                                     weights.closeness * shell.area[idx(i)], weights);
                 systems[0].blocks[idx(i)] = p.block;
@@ -246,8 +247,8 @@ Relaxed relax(const ShellLevels& shells, std::size_t level, const Points& positi
                 result.trust[idx(i)] = p.trust;
             },
             256);
-        add_back_pulls(shell, positions, target, weights.back * weights.closeness, weights.reach, systems[0].blocks,
-                       right);
+        add_back_pulls(shell, positions, target, weights.back * weights.closeness, weights.reach, memory,
+                       systems[0].blocks, right);
         if (target.border_index) add_border_pulls(shell, positions, target, weights, systems[0].blocks, right);
     }
     for (std::size_t k = level + 1; k < shells.levels.size(); ++k) {

@@ -76,10 +76,16 @@ struct Relaxed {
     int iterations = 0;
 };
 
-// Rounds of the same kind on one level, each finding closest points and solving for the shell once. `hints` are last
-// answers, one a vertex or empty, and are brought up to date.
+// What one round on a level leaves for the next one there; empty before the first. It changes no result.
+struct RelaxMemory {
+    std::vector<int> places;                      // a vertex: the target's triangle of the last answer
+    std::vector<int> back_places;                 // a place of the target: the mesh's triangle
+    std::unique_ptr<ClosestPointIndex> positions; // the mesh, where the last round found it
+};
+
+// Rounds of the same kind on one level, each finding closest points and solving for the shell once.
 Relaxed relax(const ShellLevels& shells, std::size_t level, const Points& positions, const FitTarget& target,
-              const RelaxWeights& weights, std::vector<int>& hints);
+              const RelaxWeights& weights, RelaxMemory& memory);
 
 // Positions on the next finer level: each vertex goes with the frames of the places it lies on.
 Points refine_positions(const ShellLevels& shells, std::size_t level, const Points& positions, bool with_scale);

@@ -134,9 +134,9 @@ Points articulate(const ShellLevels& shells, const FitTarget& target) {
     weights.membrane = 1;
     weights.smoothing = 0;
     weights.with_scale = false;
-    std::vector<int> hints;
+    RelaxMemory memory;
     for (int round = 0; round < articulation_rounds; ++round) {
-        Points next = relax(shells, coarsest, x, target, weights, hints).positions;
+        Points next = relax(shells, coarsest, x, target, weights, memory).positions;
         const double moved = (next - x).rowwise().norm().maxCoeff();
         x = std::move(next);
         if (moved < articulation_still) break;
@@ -192,11 +192,11 @@ FitResult surface_fit(const Mesh& source, const Mesh& target_mesh, std::span<con
     double done = 0, work = 0; // in vertices seen, for the progress
     for (const Level& level : shells.levels) work += static_cast<double>(level.positions.rows()) * rounds_a_level;
     for (std::size_t k = levels; k-- > 0;) {
-        std::vector<int> hints;
+        RelaxMemory memory;
         for (int round = 0; round < rounds_a_level; ++round, weights.length *= rate) {
             going = going && keep_going(progress, 0.15 + 0.8 * done / work, "fitting");
             if (!going) break;
-            Relaxed relaxed = relax(shells, k, x, target, weights, hints);
+            Relaxed relaxed = relax(shells, k, x, target, weights, memory);
             x = std::move(relaxed.positions);
             result.weights = std::move(relaxed.trust);
             done += static_cast<double>(x.rows());

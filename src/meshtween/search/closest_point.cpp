@@ -77,13 +77,23 @@ ClosestPoint ClosestPointIndex::Data::search(const Point& query, const Compatibl
     return answer;
 }
 
-ClosestPointIndex::ClosestPointIndex(const Points& positions, const Triangles& triangles)
+ClosestPointIndex::ClosestPointIndex(const Points& positions, const Triangles& triangles, MeshIs mesh)
     : data_(std::make_unique<Data>()) {
     check(positions, triangles);
     data_->positions = positions;
     data_->triangles = triangles;
     data_->normals = triangle_normals(positions, triangles);
-    data_->tree = search::wide_tree(positions, triangles);
+    data_->tree = search::wide_tree(positions, triangles, mesh);
+}
+
+void ClosestPointIndex::move(const Points& positions) {
+    if (positions.rows() != data_->positions.rows())
+        throw Error(ErrorKind::argument, fmt::format("{} vertices moved to {} places: give as many",
+                                                     data_->positions.rows(), positions.rows()));
+    check(positions, data_->triangles);
+    data_->positions = positions;
+    data_->normals = triangle_normals(positions, data_->triangles);
+    search::refit(data_->tree, positions, data_->triangles);
 }
 ClosestPointIndex::~ClosestPointIndex() = default;
 ClosestPointIndex::ClosestPointIndex(ClosestPointIndex&&) noexcept = default;

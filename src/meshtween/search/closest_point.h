@@ -24,16 +24,23 @@ struct Compatible {
     double least_cosine = -1; // between it and the triangle's normal
 };
 
-// Prepared once over a mesh that does not change, asked often, from any number of threads. Answers in double.
+// Whether an index's mesh stays or is going to move.
+enum class MeshIs { still, moving };
+
+// Prepared once over a mesh, asked often, from any number of threads. Answers in double.
 class ClosestPointIndex {
 public:
     // O(n log n). Triangles without area are points and edges like any other. Throws Error(computation) without
-    // triangles.
-    ClosestPointIndex(const Points& positions, const Triangles& triangles);
+    // triangles. One for a moving mesh is made faster; hints help it less.
+    ClosestPointIndex(const Points& positions, const Triangles& triangles, MeshIs mesh = MeshIs::still);
     explicit ClosestPointIndex(const Mesh& mesh) : ClosestPointIndex(mesh.positions, mesh.triangles) {}
     ~ClosestPointIndex();
     ClosestPointIndex(ClosestPointIndex&&) noexcept;
     ClosestPointIndex& operator=(ClosestPointIndex&&) noexcept;
+
+    // The same triangles with their vertices elsewhere, as many as before: answers as a new index would, in O(n). The
+    // further they went, the slower the searches. Not while another thread asks.
+    void move(const Points& positions);
 
     // The closest point; `hint` is a triangle that is probably near (the last answer's), which bounds the search.
     ClosestPoint closest(const Point& query, int hint = -1) const;

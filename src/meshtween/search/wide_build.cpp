@@ -131,9 +131,60 @@ TriangleBlock block_of(const Points& positions, const Triangles& triangles, std:
     return block;
 }
 
+// One neighbourhood that no query is inside of, for all triangles: every search comes down from the root.
+void no_neighbourhoods(WideTree& tree) {
+    Neighbourhood nowhere{};
+    for (int k = 0; k < 3; ++k) nowhere.inside_low[k] = FloatBox::nowhere, nowhere.inside_high[k] = -FloatBox::nowhere;
+    tree.neighbourhoods.assign(1, nowhere);
+    std::fill(tree.home.begin(), tree.home.end(), 0);
+}
+
+void put(const FloatBox& box, int child, WideNode& node) {
+    for (std::size_t k = 0; k < 3; ++k) node.low[k][child] = box.low[k], node.high[k][child] = box.high[k];
+}
+
+bool empty(const WideNode& node, int child) {
+    return node.low[0][child] > node.high[0][child];
+}
+
+FloatBox box_of(const WideNode& node) {
+    FloatBox all;
+    for (int i = 0; i < wide; ++i)
+        if (!empty(node, i))
+            all.extend({{node.low[0][i], node.low[1][i], node.low[2][i]},
+                        {node.high[0][i], node.high[1][i], node.high[2][i]}});
+    return all;
+}
+
 } // namespace
 
-WideTree wide_tree(const Points& positions, const Triangles& triangles) {
+void refit(WideTree& tree, const Points& positions, const Triangles& triangles) {
+    const std::vector<FloatBox> boxes = triangle_boxes(positions, triangles, {tree.origin, tree.scale});
+    std::vector<FloatBox> of_block(tree.blocks.size());
+    parallel_for(
+        std::ssize(tree.blocks),
+        [&](std::ptrdiff_t b) {
+            TriangleBlock& block = tree.blocks[static_cast<std::size_t>(b)];
+            std::array<int, wide> items{};
+            std::copy_n(block.triangle, wide, items.begin());
+            block = block_of(positions, triangles, items, 1e-7 / tree.scale);
+            for (const int t : items) of_block[static_cast<std::size_t>(b)].extend(boxes[static_cast<std::size_t>(t)]);
+        },
+        128);
+    for (std::size_t n = tree.nodes.size(); n-- > 0;) { // children come after their parents
+        WideNode& node = tree.nodes[n];
+        for (int i = 0; i < wide; ++i) {
+            if (empty(node, i)) continue;
+            const int child = node.child[i];
+            put(child < 0 ? of_block[static_cast<std::size_t>(~child)]
+                          : box_of(tree.nodes[static_cast<std::size_t>(child)]),
+                i, node);
+        }
+    }
+    no_neighbourhoods(tree);
+}
+
+WideTree wide_tree(const Points& positions, const Triangles& triangles, MeshIs mesh) {
     WideTree tree;
     const Frame to = frame(positions);
     tree.origin = to.origin;
@@ -148,7 +199,10 @@ WideTree wide_tree(const Points& positions, const Triangles& triangles) {
         tree.blocks[static_cast<std::size_t>(b)] = block_of(positions, triangles, items, 1e-7 / to.scale);
     });
     tree.home.resize(static_cast<std::size_t>(triangles.rows()));
-    add_neighbourhoods(tree);
+    if (mesh == MeshIs::still)
+        add_neighbourhoods(tree);
+    else
+        no_neighbourhoods(tree);
     return tree;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "meshtween/core/mesh.h"
+#include "meshtween/search/closest_point.h"
 #include "meshtween/search/wide_tree.h"
 
 #include <vector>
@@ -18,10 +19,13 @@ struct WideTree {
 };
 
 // Of at least one triangle. The same tree for any number of threads.
-WideTree wide_tree(const Points& positions, const Triangles& triangles);
+WideTree wide_tree(const Points& positions, const Triangles& triangles, MeshIs mesh = MeshIs::still);
 
-// Its last step: fills neighbourhoods and home.
+// Its last step for a mesh that is still: fills neighbourhoods and home.
 void add_neighbourhoods(WideTree& tree);
+
+// The tree of the same triangles with their vertices elsewhere, without neighbourhoods.
+void refit(WideTree& tree, const Points& positions, const Triangles& triangles);
 
 // The searches that this machine can do, the plain one first and the widest last.
 struct NamedSearch {

@@ -1,14 +1,10 @@
-// Conjugate gradients with a geometric multigrid V-cycle.
+// Conjugate gradients with a geometric multigrid V-cycle (v_cycle).
 //
-// Briggs, Henson, McCormick: A multigrid tutorial. SIAM 2000.
 // Tatebe: The multigrid preconditioned conjugate gradient method. 1993.
 #include "meshtween/solve/block_system.h"
 
-#include "meshtween/core/error.h"
 #include "meshtween/core/parallel.h"
-
-#include <Eigen/LU>
-#include <Eigen/SparseCholesky>
+#include "meshtween/solve/v_cycle.h"
 
 #include <algorithm>
 
@@ -17,9 +13,6 @@ namespace {
 
 using Eigen::Matrix3d;
 
-constexpr double damping = 0.6; // of the block Jacobi smoother: under 2 / the largest eigenvalue of D^-1 A
-constexpr int sweeps = 2;       // before and after each visit of the coarser grid
-
 double dot(const Points& a, const Points& b) {
     return parallel_sum(a.rows(), 0.0, [&](std::ptrdiff_t i) {
         const double *p = a.data() + 3 * i, *q = b.data() + 3 * i;
@@ -27,59 +20,19 @@ double dot(const Points& a, const Points& b) {
     });
 }
 
-// y = right - A x
-void residual(const BlockSystem& system, const Points& right, const Points& x, Points& y) {
-    y.resize(x.rows(), 3);
+// Row i of A x.
+Eigen::RowVector3d row_times(const BlockSystem& system, const Points& x, std::ptrdiff_t i) {
     const Pattern& p = *system.pattern;
-    parallel_for(x.rows(), [&](std::ptrdiff_t i) {
-        const double* at = x.data() + 3 * i;
-        const Matrix3d& d = system.blocks[static_cast<std::size_t>(i)];
-        double sum[3];
-        for (int k = 0; k < 3; ++k) sum[k] = right(i, k) - (d(0, k) * at[0] + d(1, k) * at[1] + d(2, k) * at[2]);
-        for (int e = p.first[static_cast<std::size_t>(i)]; e < p.first[static_cast<std::size_t>(i) + 1]; ++e) {
-            const double* other = x.data() + 3 * std::ptrdiff_t{p.column[static_cast<std::size_t>(e)]};
-            const double value = system.values[static_cast<std::size_t>(e)];
-            for (int k = 0; k < 3; ++k) sum[k] -= value * other[k];
-        }
-        for (int k = 0; k < 3; ++k) y(i, k) = sum[k];
-    });
-}
-
-std::vector<Matrix3d> inverse_diagonal(const BlockSystem& system) {
-    std::vector<Matrix3d> inverse(system.blocks.size());
-    for (std::size_t i = 0; i < inverse.size(); ++i) {
-        const double value = system.values[static_cast<std::size_t>(system.pattern->diagonal[i])];
-        const Matrix3d block = system.blocks[i] + value * Matrix3d::Identity();
-        inverse[i] = block.trace() > 0 ? Matrix3d(block.inverse()) : Matrix3d(Matrix3d::Zero());
+    const double* at = x.data() + 3 * i;
+    const Matrix3d& d = system.blocks[static_cast<std::size_t>(i)];
+    double sum[3];
+    for (int k = 0; k < 3; ++k) sum[k] = d(0, k) * at[0] + d(1, k) * at[1] + d(2, k) * at[2];
+    for (int e = p.first[static_cast<std::size_t>(i)]; e < p.first[static_cast<std::size_t>(i) + 1]; ++e) {
+        const double* other = x.data() + 3 * std::ptrdiff_t{p.column[static_cast<std::size_t>(e)]};
+        const double value = system.values[static_cast<std::size_t>(e)];
+        for (int k = 0; k < 3; ++k) sum[k] += value * other[k];
     }
-    return inverse;
-}
-
-Eigen::SparseMatrix<double> lower_triangle(const BlockSystem& system) {
-    std::vector<Eigen::Triplet<double>> entries;
-    const Pattern& p = *system.pattern;
-    double greatest = 0;
-    for (std::size_t i = 0; i < system.blocks.size(); ++i)
-        greatest =
-            std::max(greatest, system.values[static_cast<std::size_t>(p.diagonal[i])] + system.blocks[i].trace());
-    for (std::size_t row = 0; row < system.blocks.size(); ++row) {
-        const int i = static_cast<int>(row);
-        for (int e = p.first[row]; e < p.first[row + 1]; ++e) {
-            const int j = p.column[static_cast<std::size_t>(e)];
-            const double value = system.values[static_cast<std::size_t>(e)];
-            if (j < i)
-                for (int k = 0; k < 3; ++k) entries.emplace_back(3 * i + k, 3 * j + k, value);
-            else if (j == i)
-                for (int k = 0; k < 3; ++k)
-                    for (int l = 0; l <= k; ++l)
-                        entries.emplace_back(3 * i + k, 3 * i + l,
-                                             system.blocks[row](k, l) + (k == l ? value + 1e-12 * greatest : 0));
-        }
-    }
-    const auto n = 3 * static_cast<Eigen::Index>(system.blocks.size());
-    Eigen::SparseMatrix<double> matrix(n, n);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    return matrix;
+    return {sum[0], sum[1], sum[2]};
 }
 
 } // namespace
@@ -106,9 +59,9 @@ Pattern pattern(std::vector<std::vector<int>> rows) {
 }
 
 Points apply(const BlockSystem& system, const Points& x) {
-    Points y;
-    residual(system, Points::Zero(x.rows(), 3), x, y);
-    return -y;
+    Points y(x.rows(), 3);
+    parallel_for(x.rows(), [&](std::ptrdiff_t i) { y.row(i) = row_times(system, x, i); });
+    return y;
 }
 
 Interpolation interpolation(std::ptrdiff_t coarse_count, std::vector<std::array<int, 3>> points,
@@ -133,124 +86,57 @@ Interpolation interpolation(std::ptrdiff_t coarse_count, std::vector<std::array<
     return result;
 }
 
-Points to_fine(const Interpolation& interpolation, const Points& coarse) {
-    Points fine(static_cast<Eigen::Index>(interpolation.points.size()), 3);
-    parallel_for(fine.rows(), [&](std::ptrdiff_t i) {
-        const auto& p = interpolation.points[static_cast<std::size_t>(i)];
-        const auto& w = interpolation.weights[static_cast<std::size_t>(i)];
-        fine.row(i) = w[0] * coarse.row(p[0]) + w[1] * coarse.row(p[1]) + w[2] * coarse.row(p[2]);
-    });
-    return fine;
-}
-
-template <typename Get, typename Sum>
-static void gather(const Interpolation& interpolation, std::ptrdiff_t c, const Get& get, Sum& sum) {
-    const auto i = static_cast<std::size_t>(c);
-    for (auto e = static_cast<std::size_t>(interpolation.first[i]);
-         e < static_cast<std::size_t>(interpolation.first[i + 1]); ++e) {
-        const auto fine = static_cast<std::size_t>(interpolation.fine[e]);
-        sum += interpolation.weights[fine][interpolation.slot[e]] * get(fine);
-    }
-}
-
-Points to_coarse(const Interpolation& interpolation, const Points& fine) {
-    Points coarse(static_cast<Eigen::Index>(interpolation.first.size()) - 1, 3);
-    parallel_for(coarse.rows(), [&](std::ptrdiff_t c) {
-        Point sum(0, 0, 0);
-        gather(
-            interpolation, c, [&](std::size_t i) { return fine.row(static_cast<Eigen::Index>(i)); }, sum);
-        coarse.row(c) = sum;
-    });
-    return coarse;
-}
-
 std::vector<Matrix3d> to_coarse(const Interpolation& interpolation, const std::vector<Matrix3d>& fine) {
     std::vector<Matrix3d> coarse(interpolation.first.size() - 1, Matrix3d::Zero());
     parallel_for(static_cast<std::ptrdiff_t>(coarse.size()), [&](std::ptrdiff_t c) {
-        gather(
-            interpolation, c, [&](std::size_t i) { return fine[i]; }, coarse[static_cast<std::size_t>(c)]);
+        const auto i = static_cast<std::size_t>(c);
+        for (auto e = static_cast<std::size_t>(interpolation.first[i]);
+             e < static_cast<std::size_t>(interpolation.first[i + 1]); ++e) {
+            const auto from = static_cast<std::size_t>(interpolation.fine[e]);
+            coarse[i] += interpolation.weights[from][interpolation.slot[e]] * fine[from];
+        }
     });
     return coarse;
 }
 
 struct Multigrid::Data {
-    std::vector<BlockSystem> systems;
-    const std::vector<Interpolation>* interpolations;
-    std::size_t offset;
-    std::vector<std::vector<Matrix3d>> inverse;
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> coarsest;
-    mutable std::vector<Points> residuals;
+    VCycle cycle;
+    BlockSystem finest;
+    bool direct; // there is one grid, and the cycle solves it but for the rounding to floats
 
-    // z += damping * D^-1 r
-    void relax(std::size_t grid, const Points& r, Points& z) const {
-        parallel_for(r.rows(), [&](std::ptrdiff_t i) {
-            z.row(i) += damping * r.row(i) * inverse[grid][static_cast<std::size_t>(i)];
-        });
-    }
-
-    Points cycle(std::size_t grid, const Points& right) const {
-        if (grid + 1 == systems.size()) {
-            const Eigen::VectorXd x = coarsest.solve(Eigen::Map<const Eigen::VectorXd>(right.data(), right.size()));
-            return Eigen::Map<const Points>(x.data(), right.rows(), 3);
-        }
-        Points z = Points::Zero(right.rows(), 3);
-        Points& r = residuals[grid];
-        relax(grid, right, z);
-        for (int sweep = 1; sweep < sweeps; ++sweep) {
-            residual(systems[grid], right, z, r);
-            relax(grid, r, z);
-        }
-        residual(systems[grid], right, z, r);
-        const Interpolation& up = (*interpolations)[offset + grid];
-        z += to_fine(up, cycle(grid + 1, to_coarse(up, r)));
-        for (int sweep = 0; sweep < sweeps; ++sweep) {
-            residual(systems[grid], right, z, r);
-            relax(grid, r, z);
-        }
-        return z;
-    }
+    Data(std::vector<BlockSystem> systems, const std::vector<Interpolation>& interpolations, std::size_t offset)
+        : cycle(systems, interpolations, offset), finest(std::move(systems[0])), direct(systems.size() == 1) {}
 };
 
 Multigrid::Multigrid(std::vector<BlockSystem> systems, const std::vector<Interpolation>& interpolations,
                      std::size_t offset)
-    : data_(std::make_unique<Data>()) {
-    data_->systems = std::move(systems);
-    data_->interpolations = &interpolations;
-    data_->offset = offset;
-    for (std::size_t k = 0; k + 1 < data_->systems.size(); ++k)
-        data_->inverse.push_back(inverse_diagonal(data_->systems[k]));
-    data_->residuals.resize(data_->systems.size());
-    data_->coarsest.compute(lower_triangle(data_->systems.back()));
-    if (data_->coarsest.info() != Eigen::Success)
-        throw Error(ErrorKind::computation,
-                    "the system of the coarsest mesh is singular: part of it is held by nothing");
-}
+    : data_(std::make_unique<Data>(std::move(systems), interpolations, offset)) {}
 
 Multigrid::~Multigrid() = default;
 Multigrid::Multigrid(Multigrid&&) noexcept = default;
 
 SolveSummary Multigrid::solve(const Points& right, Points& x, int max_iterations, double tolerance) const {
+    constexpr double direct_tolerance = 1e-10;
+    if (data_->direct) tolerance = std::min(tolerance, direct_tolerance);
     SolveSummary summary;
-    if (data_->systems.size() == 1) {
-        x = data_->cycle(0, right);
-        summary.reduction = 0;
-        return summary;
-    }
-    const BlockSystem& system = data_->systems[0];
-    Points r, q;
-    residual(system, right, x, r);
-    Points z = data_->cycle(0, r), p = z;
-    const Points zero = Points::Zero(x.rows(), 3);
+    const BlockSystem& system = data_->finest;
+    const std::ptrdiff_t n = x.rows();
+    Points r(n, 3), q(n, 3), z, p;
+    parallel_for(n, [&](std::ptrdiff_t i) { r.row(i) = right.row(i) - row_times(system, x, i); });
+    data_->cycle.apply(r, z);
+    p = z;
     double rz = dot(r, z);
     const double start = rz;
     while (summary.iterations < max_iterations && rz > tolerance * tolerance * start && rz > 0) {
-        residual(system, zero, p, q); // -A p
-        const double alpha = -rz / dot(p, q);
-        x += alpha * p;
-        r += alpha * q;
-        z = data_->cycle(0, r);
-        const double next = dot(r, z);
-        p = z + (next / rz) * p;
+        parallel_for(n, [&](std::ptrdiff_t i) { q.row(i) = row_times(system, p, i); });
+        const double alpha = rz / dot(p, q);
+        parallel_for(n, [&](std::ptrdiff_t i) {
+            x.row(i) += alpha * p.row(i);
+            r.row(i) -= alpha * q.row(i);
+        });
+        data_->cycle.apply(r, z);
+        const double next = dot(r, z), beta = next / rz;
+        parallel_for(n, [&](std::ptrdiff_t i) { p.row(i) = z.row(i) + beta * p.row(i); });
         rz = next;
         ++summary.iterations;
     }

@@ -38,8 +38,6 @@ struct Interpolation {
 };
 Interpolation interpolation(std::ptrdiff_t coarse_count, std::vector<std::array<int, 3>> points,
                             std::vector<Eigen::RowVector3d> weights);
-Points to_fine(const Interpolation& interpolation, const Points& coarse);
-Points to_coarse(const Interpolation& interpolation, const Points& fine); // the transpose
 // The blocks of a coarser system: each fine block shared out by its weights (the transpose, lumped).
 std::vector<Eigen::Matrix3d> to_coarse(const Interpolation& interpolation, const std::vector<Eigen::Matrix3d>& fine);
 
@@ -57,7 +55,7 @@ public:
     ~Multigrid();
     Multigrid(Multigrid&&) noexcept;
 
-    // Conjugate gradients with one V-cycle as the preconditioner, from x on, until the residual has fallen by
+    // Conjugate gradients with one V-cycle in floats as the preconditioner, from x on, until the residual has fallen by
     // `tolerance` or after max_iterations. The same bits for any number of threads.
     SolveSummary solve(const Points& right, Points& x, int max_iterations, double tolerance) const;
 
