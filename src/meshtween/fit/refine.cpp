@@ -256,7 +256,7 @@ Relaxed relax(const ShellLevels& shells, std::size_t level, const Points& positi
         systems.back().blocks = to_coarse(shells.up[k - 1], systems[systems.size() - 2].blocks);
     }
     const Multigrid solver(std::move(systems), shells.up, level);
-    result.iterations = solver.solve(right, result.positions, weights.iterations, 1e-3).iterations;
+    result.iterations = solver.solve(right, result.positions, weights.cycles, 1e-3);
     return result;
 }
 

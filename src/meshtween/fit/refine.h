@@ -67,7 +67,7 @@ struct RelaxWeights {
     double calm_turn = 0;   // radians: frames that turn less are drawn towards none (calmed)
     int smoothing = 5;      // rounds, of the local frames
     bool with_scale = true; // local frames may grow and shrink
-    int iterations = 20;    // of the solver, at most
+    int cycles = 10;        // of the solver, in time at most
 };
 
 struct Relaxed {

@@ -1,6 +1,7 @@
 #include "meshtween/geometry/topology.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 
 namespace meshtween {
@@ -26,7 +27,7 @@ Lists gather(std::ptrdiff_t owners, const ForEachPair& for_each_pair) {
 Topology topology(Eigen::Index vertex_count, const Triangles& triangles) {
     Topology result;
     struct Half {
-        std::array<int, 2> vertices;
+        std::uint64_t vertices; // the smaller index above the other: sorted by one comparison
         int triangle;
     };
     std::vector<Half> halves;
@@ -34,14 +35,20 @@ Topology topology(Eigen::Index vertex_count, const Triangles& triangles) {
     for (Eigen::Index t = 0; t < triangles.rows(); ++t)
         for (int k = 0; k < 3; ++k) {
             const int a = triangles(t, k), b = triangles(t, (k + 1) % 3);
-            if (a != b) halves.push_back({{std::min(a, b), std::max(a, b)}, static_cast<int>(t)});
+            if (a != b)
+                halves.push_back(
+                    {static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint64_t>(std::max(a, b)),
+                     static_cast<int>(t)});
         }
     std::sort(halves.begin(), halves.end(), [](const Half& x, const Half& y) {
         return x.vertices != y.vertices ? x.vertices < y.vertices : x.triangle < y.triangle;
     });
-    for (const Half& half : halves) {
-        if (result.edges.empty() || result.edges.back().vertices != half.vertices)
-            result.edges.push_back({half.vertices, {-1, -1}, 0});
+    result.edges.reserve(halves.size() / 2 + 16);
+    for (std::size_t h = 0; h < halves.size(); ++h) {
+        const Half& half = halves[h];
+        if (h == 0 || half.vertices != halves[h - 1].vertices)
+            result.edges.push_back(
+                {{static_cast<int>(half.vertices >> 32), static_cast<int>(half.vertices & 0xffffffff)}, {-1, -1}, 0});
         Edge& edge = result.edges.back();
         if (edge.count < 2) edge.triangles[static_cast<std::size_t>(edge.count)] = half.triangle;
         ++edge.count;

@@ -13,13 +13,6 @@ namespace {
 
 using Eigen::Matrix3d;
 
-double dot(const Points& a, const Points& b) {
-    return parallel_sum(a.rows(), 0.0, [&](std::ptrdiff_t i) {
-        const double *p = a.data() + 3 * i, *q = b.data() + 3 * i;
-        return p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
-    });
-}
-
 // Row i of A x.
 Eigen::RowVector3d row_times(const BlockSystem& system, const Points& x, std::ptrdiff_t i) {
     const Pattern& p = *system.pattern;
@@ -102,11 +95,98 @@ std::vector<Matrix3d> to_coarse(const Interpolation& interpolation, const std::v
 struct Multigrid::Data {
     VCycle cycle;
     BlockSystem finest;
-    bool direct; // there is one grid, and the cycle solves it but for the rounding to floats
-
     Data(std::vector<BlockSystem> systems, const std::vector<Interpolation>& interpolations, std::size_t offset)
-        : cycle(systems, interpolations, offset), finest(std::move(systems[0])), direct(systems.size() == 1) {}
+        : cycle(systems, interpolations, offset), finest(std::move(systems[0])) {}
 };
+
+namespace {
+
+constexpr int sweeps_a_cycle = 6; // of Jacobi, in time
+
+// Conjugate gradients in floats, from x = 0 on; with another preconditioner they start anew from where they are.
+class Gradients {
+public:
+    Gradients(const VCycle& cycle, FloatPoints right)
+        : cycle_(cycle), grid_(cycle.finest()), r_(std::move(right)), x_(r_.size()), z_(r_.size()), p_(r_.size()),
+          q_(r_.size()) {}
+    const FloatPoints& x() const { return x_; }
+
+    struct Run {
+        int iterations = 0;
+        double gain = 0; // by which x came closer to the solution, in the squared norm that the system makes
+    };
+    // Until the residual's squared norm (preconditioned) is under `tolerance` of what it is now.
+    Run run(bool with_cycle, int iterations, double tolerance) {
+        Run done;
+        double rz = precondition(with_cycle);
+        const double enough = tolerance * rz;
+        p_ = z_;
+        while (done.iterations < iterations && rz > enough && rz > 0) {
+            const double pq = sum([&](std::size_t i) {
+                q_[i] = row_times(grid_, p_, i);
+                return product(p_[i], q_[i]);
+            });
+            if (!(pq > 0)) break;
+            const double alpha = rz / pq;
+            const auto step = static_cast<float>(alpha);
+            done.gain += alpha * rz;
+            ++done.iterations;
+            each([&](std::size_t i) {
+                x_[i] += step * p_[i];
+                r_[i] -= step * q_[i];
+            });
+            const double next = precondition(with_cycle);
+            const auto beta = static_cast<float>(next / rz);
+            each([&](std::size_t i) { p_[i] = z_[i] + beta * p_[i]; });
+            rz = next;
+        }
+        return done;
+    }
+
+private:
+    static double product(const FloatPoint& a, const FloatPoint& b) {
+        const FloatPoint c = a * b;
+        return double{c[0]} + c[1] + c[2];
+    }
+    template <typename Term>
+    double sum(const Term& term) const {
+        return parallel_sum(std::ssize(r_), 0.0, [&](std::ptrdiff_t i) { return term(static_cast<std::size_t>(i)); });
+    }
+    template <typename Body>
+    void each(const Body& body) const {
+        parallel_for(
+            std::ssize(r_), [&](std::ptrdiff_t i) { body(static_cast<std::size_t>(i)); }, 4096);
+    }
+    double precondition(bool with_cycle) {
+        if (with_cycle) {
+            z_ = cycle_.apply(r_);
+            return sum([&](std::size_t i) { return product(r_[i], z_[i]); });
+        }
+        return sum([&](std::size_t i) {
+            z_[i] = times(grid_.smoother[i], r_[i]);
+            return product(r_[i], z_[i]);
+        });
+    }
+
+    const VCycle& cycle_;
+    const FloatGrid& grid_;
+    FloatPoints r_, x_, z_, p_, q_;
+};
+
+// The cycle is worth its time where coarser grids tell what the finest one does; between long thin triangles, or where
+// the coarser mesh bends otherwise, Jacobi's steps alone come further. A trial of both says which.
+int run(Gradients& gradients, int cycles, double tolerance) {
+    constexpr int trial = 2;
+    int steps = gradients.run(false, trial * sweeps_a_cycle, tolerance).iterations; // what is local, in any case
+    const Gradients::Run cycle = gradients.run(true, trial, tolerance),
+                         jacobi = gradients.run(false, trial * sweeps_a_cycle, tolerance);
+    steps += cycle.iterations + jacobi.iterations;
+    const bool with_cycle = cycle.gain > jacobi.gain;
+    const int left = std::max(0, cycles - 3 * trial);
+    return steps + gradients.run(with_cycle, with_cycle ? left : left * sweeps_a_cycle, tolerance).iterations;
+}
+
+} // namespace
 
 Multigrid::Multigrid(std::vector<BlockSystem> systems, const std::vector<Interpolation>& interpolations,
                      std::size_t offset)
@@ -115,33 +195,24 @@ Multigrid::Multigrid(std::vector<BlockSystem> systems, const std::vector<Interpo
 Multigrid::~Multigrid() = default;
 Multigrid::Multigrid(Multigrid&&) noexcept = default;
 
-SolveSummary Multigrid::solve(const Points& right, Points& x, int max_iterations, double tolerance) const {
-    constexpr double direct_tolerance = 1e-10;
-    if (data_->direct) tolerance = std::min(tolerance, direct_tolerance);
-    SolveSummary summary;
-    const BlockSystem& system = data_->finest;
-    const std::ptrdiff_t n = x.rows();
-    Points r(n, 3), q(n, 3), z, p;
-    parallel_for(n, [&](std::ptrdiff_t i) { r.row(i) = right.row(i) - row_times(system, x, i); });
-    data_->cycle.apply(r, z);
-    p = z;
-    double rz = dot(r, z);
-    const double start = rz;
-    while (summary.iterations < max_iterations && rz > tolerance * tolerance * start && rz > 0) {
-        parallel_for(n, [&](std::ptrdiff_t i) { q.row(i) = row_times(system, p, i); });
-        const double alpha = rz / dot(p, q);
-        parallel_for(n, [&](std::ptrdiff_t i) {
-            x.row(i) += alpha * p.row(i);
-            r.row(i) -= alpha * q.row(i);
+int Multigrid::solve(const Points& right, Points& x, int cycles, double tolerance) const {
+    const VCycle& cycle = data_->cycle;
+    int iterations = 0;
+    constexpr int refinements = 3; // a cycle of one grid leaves 1e-7 each time
+    for (int k = 0; k < (cycle.direct() ? refinements : 1); ++k) {
+        FloatPoints residual(static_cast<std::size_t>(x.rows()));
+        parallel_for(x.rows(), [&](std::ptrdiff_t i) {
+            const Eigen::RowVector3d r = right.row(i) - row_times(data_->finest, x, i);
+            for (int c = 0; c < 3; ++c) residual[static_cast<std::size_t>(i)][c] = static_cast<float>(r[c]);
         });
-        data_->cycle.apply(r, z);
-        const double next = dot(r, z), beta = next / rz;
-        parallel_for(n, [&](std::ptrdiff_t i) { p.row(i) = z.row(i) + beta * p.row(i); });
-        rz = next;
-        ++summary.iterations;
+        Gradients gradients(cycle, std::move(residual));
+        iterations +=
+            cycle.direct() ? gradients.run(true, 1, 0).iterations : run(gradients, cycles, tolerance * tolerance);
+        parallel_for(x.rows(), [&](std::ptrdiff_t i) {
+            for (int c = 0; c < 3; ++c) x(i, c) += double{gradients.x()[static_cast<std::size_t>(i)][c]};
+        });
     }
-    summary.reduction = start > 0 ? std::sqrt(std::max(0.0, rz / start)) : 0;
-    return summary;
+    return iterations;
 }
 
 } // namespace meshtween

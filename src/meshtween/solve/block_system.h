@@ -41,11 +41,6 @@ Interpolation interpolation(std::ptrdiff_t coarse_count, std::vector<std::array<
 // The blocks of a coarser system: each fine block shared out by its weights (the transpose, lumped).
 std::vector<Eigen::Matrix3d> to_coarse(const Interpolation& interpolation, const std::vector<Eigen::Matrix3d>& fine);
 
-struct SolveSummary {
-    int iterations = 0;
-    double reduction = 1; // of the preconditioned residual's norm
-};
-
 // One system on several grids, finest first, prepared to be solved.
 class Multigrid {
 public:
@@ -55,9 +50,10 @@ public:
     ~Multigrid();
     Multigrid(Multigrid&&) noexcept;
 
-    // Conjugate gradients with one V-cycle in floats as the preconditioner, from x on, until the residual has fallen by
-    // `tolerance` or after max_iterations. The same bits for any number of threads.
-    SolveSummary solve(const Points& right, Points& x, int max_iterations, double tolerance) const;
+    // Conjugate gradients in floats, from x on, until what a residual is left has fallen by `tolerance` or for about as
+    // long as `cycles` V-cycles take; the preconditioner is a V-cycle or Jacobi's step, whichever comes further. How
+    // many steps it took. The same bits for any number of threads.
+    int solve(const Points& right, Points& x, int cycles, double tolerance) const;
 
 private:
     struct Data;

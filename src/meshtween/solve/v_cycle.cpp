@@ -29,19 +29,6 @@ Columns columns(const Matrix3d& m) {
     return result;
 }
 
-FloatPoint times(const Columns& m, const FloatPoint& x) {
-    return m[0] * x[0] + m[1] * x[1] + m[2] * x[2];
-}
-
-// Row i of right - A x.
-FloatPoint residual(const FloatGrid& grid, const std::vector<FloatPoint>& right, const std::vector<FloatPoint>& x,
-                    std::size_t i) {
-    const Pattern& p = *grid.pattern;
-    FloatPoint sum = right[i] - times(grid.blocks[i], x[i]);
-    for (auto e = idx(p.first[i]); e < idx(p.first[i + 1]); ++e) sum -= grid.values[e] * x[idx(p.column[e])];
-    return sum;
-}
-
 Eigen::SparseMatrix<double> lower_triangle(const BlockSystem& system) {
     std::vector<Eigen::Triplet<double>> entries;
     const Pattern& p = *system.pattern;
@@ -90,9 +77,9 @@ VCycle::VCycle(const std::vector<BlockSystem>& systems, const std::vector<Interp
                std::size_t offset)
     : up_(interpolations.data() + offset), scratch_(systems.size()) {
     for (std::size_t k = 0; k < systems.size(); ++k) {
-        if (k + 1 < systems.size()) grids_.push_back(float_grid(systems[k]));
+        grids_.push_back(float_grid(systems[k]));
         const std::size_t n = systems[k].blocks.size();
-        scratch_[k] = {Vector(n), Vector(n), Vector(n)};
+        scratch_[k] = {FloatPoints(n), FloatPoints(n), FloatPoints(n)};
     }
     coarsest_.compute(lower_triangle(systems.back()));
     if (coarsest_.info() != Eigen::Success)
@@ -100,28 +87,16 @@ VCycle::VCycle(const std::vector<BlockSystem>& systems, const std::vector<Interp
                     "the system of the coarsest mesh is singular: part of it is held by nothing");
 }
 
-void VCycle::apply(const Points& right, Points& z) const {
-    Scratch& top = scratch_[0];
-    parallel_for(
-        right.rows(),
-        [&](std::ptrdiff_t i) {
-            for (int k = 0; k < 3; ++k) top.right[idx(i)][k] = static_cast<float>(right(i, k));
-        },
-        grain);
+const FloatPoints& VCycle::apply(const FloatPoints& right) const {
+    scratch_[0].right = right;
     cycle(0);
-    z.resize(right.rows(), 3);
-    parallel_for(
-        right.rows(),
-        [&](std::ptrdiff_t i) {
-            for (int k = 0; k < 3; ++k) z(i, k) = top.now[idx(i)][k];
-        },
-        grain);
+    return scratch_[0].now;
 }
 
 void VCycle::cycle(std::size_t level) const {
     Scratch& at = scratch_[level];
     const auto n = std::ssize(at.right);
-    if (level == grids_.size()) {
+    if (level + 1 == grids_.size()) {
         Eigen::VectorXd b(3 * n);
         for (std::ptrdiff_t i = 0; i < n; ++i)
             for (int k = 0; k < 3; ++k) b[3 * i + k] = at.right[idx(i)][k];
@@ -137,13 +112,13 @@ void VCycle::cycle(std::size_t level) const {
     };
     const auto smooth = [&] {
         each([&](std::size_t i) {
-            at.next[i] = at.now[i] + times(grid.smoother[i], residual(grid, at.right, at.now, i));
+            at.next[i] = at.now[i] + times(grid.smoother[i], at.right[i] - row_times(grid, at.now, i));
         });
         at.now.swap(at.next);
     };
     each([&](std::size_t i) { at.now[i] = times(grid.smoother[i], at.right[i]); });
     for (int sweep = 1; sweep < sweeps; ++sweep) smooth();
-    each([&](std::size_t i) { at.next[i] = residual(grid, at.right, at.now, i); });
+    each([&](std::size_t i) { at.next[i] = at.right[i] - row_times(grid, at.now, i); });
     const Interpolation& up = up_[level];
     Scratch& coarser = scratch_[level + 1];
     parallel_for(

@@ -22,27 +22,43 @@ struct FloatGrid {
 };
 FloatGrid float_grid(const BlockSystem& system);
 
+using FloatPoints = std::vector<FloatPoint>;
+
 class VCycle {
 public:
-    // As for Multigrid, of two systems at least.
+    // As for Multigrid.
     VCycle(const std::vector<BlockSystem>& systems, const std::vector<Interpolation>& interpolations,
            std::size_t offset);
 
-    // z: about the solution for `right`, the same linear and symmetric operator each time. n x 3. Not from two threads
-    // at once.
-    void apply(const Points& right, Points& z) const;
+    bool direct() const { return grids_.size() == 1; } // of one grid: a cycle solves it but for the rounding
+    const FloatGrid& finest() const { return grids_[0]; }
+
+    // About the solution for `right`: the same linear and symmetric operator each time. Good until the next call, and
+    // not for two threads at once.
+    const FloatPoints& apply(const FloatPoints& right) const;
 
 private:
-    using Vector = std::vector<FloatPoint>;
     struct Scratch {
-        Vector right, now, next;
+        FloatPoints right, now, next;
     };
     void cycle(std::size_t grid) const; // from scratch_[grid].right to scratch_[grid].now
 
-    std::vector<FloatGrid> grids_; // without the coarsest
-    const Interpolation* up_;      // up_[k] leads from grid k + 1 to grid k
+    std::vector<FloatGrid> grids_;
+    const Interpolation* up_; // up_[k] leads from grid k + 1 to grid k
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> coarsest_;
     mutable std::vector<Scratch> scratch_;
 };
+
+// A block on the diagonal, or its inverse, times a point; and a row of the system times points.
+inline FloatPoint times(const std::array<FloatPoint, 3>& columns, const FloatPoint& x) {
+    return columns[0] * x[0] + columns[1] * x[1] + columns[2] * x[2];
+}
+inline FloatPoint row_times(const FloatGrid& grid, const FloatPoints& x, std::size_t i) {
+    FloatPoint sum = times(grid.blocks[i], x[i]);
+    const auto end = static_cast<std::size_t>(grid.pattern->first[i + 1]);
+    for (auto e = static_cast<std::size_t>(grid.pattern->first[i]); e < end; ++e)
+        sum += grid.values[e] * x[static_cast<std::size_t>(grid.pattern->column[e])];
+    return sum;
+}
 
 } // namespace meshtween
