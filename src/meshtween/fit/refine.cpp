@@ -251,12 +251,16 @@ Relaxed relax(const ShellLevels& shells, std::size_t level, const Points& positi
                        systems[0].blocks, right);
         if (target.border_index) add_border_pulls(shell, positions, target, weights, systems[0].blocks, right);
     }
-    for (std::size_t k = level + 1; k < shells.levels.size(); ++k) {
-        systems.push_back(level_system(shells, k, weights));
-        systems.back().blocks = to_coarse(shells.up[k - 1], systems[systems.size() - 2].blocks);
+    std::unique_ptr<Multigrid> solver = std::move(memory.pose);
+    if (!solver) {
+        for (std::size_t k = level + 1; k < shells.levels.size(); ++k) {
+            systems.push_back(level_system(shells, k, weights));
+            systems.back().blocks = to_coarse(shells.up[k - 1], systems[systems.size() - 2].blocks);
+        }
+        solver = std::make_unique<Multigrid>(std::move(systems), shells.up, level);
     }
-    const Multigrid solver(std::move(systems), shells.up, level);
-    result.iterations = solver.solve(right, result.positions, weights.cycles, 1e-3);
+    result.iterations = solver->solve(right, result.positions, weights.cycles, 1e-3);
+    if (weights.closeness <= 0) memory.pose = std::move(solver);
     return result;
 }
 

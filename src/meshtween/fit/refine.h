@@ -76,11 +76,13 @@ struct Relaxed {
     int iterations = 0;
 };
 
-// What one round on a level leaves for the next one there; empty before the first. It changes no result.
+// What one round on a level leaves for the next one there, with the same weights but for their
+// lengths where there is closeness; empty before the first. It changes no result.
 struct RelaxMemory {
     std::vector<int> places;                      // a vertex: the target's triangle of the last answer
     std::vector<int> back_places;                 // a place of the target: the mesh's triangle
     std::unique_ptr<ClosestPointIndex> positions; // the mesh, where the last round found it
+    std::unique_ptr<Multigrid> pose;              // without closeness the system depends on the weights alone
 };
 
 // Rounds of the same kind on one level, each finding closest points and solving for the shell once.

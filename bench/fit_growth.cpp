@@ -1,0 +1,57 @@
+// How time and memory of the fit grow: the sample `bow`, subdivided 0, 1, ... times up to the argument (2; 3 is 760,000
+// vertices and takes minutes).
+#include "meshtween/fit/fit.h"
+#include "meshtween/fit/markers.h"
+#include "meshtween/geometry/samples.h"
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+
+using namespace meshtween;
+
+namespace {
+
+struct Cost {
+    double wall, cpu, mebibytes;
+    Eigen::Index vertices;
+};
+
+Cost cost_of_fit(int subdivisions) {
+    const Sample made = sample("bow", subdivisions);
+    std::vector<MarkerPair> pairs;
+    for (std::size_t k = 0; k < made.marker_names.size(); ++k)
+        pairs.push_back({made.marker_names[k], made.marker_source.row(static_cast<Eigen::Index>(k)),
+                         made.marker_target.row(static_cast<Eigen::Index>(k))});
+    const std::vector<Marker> markers = place_markers(pairs, made.source);
+    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t cpu = std::clock();
+    fit(made.source, made.target, markers);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return {seconds, static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC,
+            static_cast<double>(usage.ru_maxrss) / 1024, made.source.positions.rows()};
+}
+
+} // namespace
+
+int main(int count, char** arguments) {
+    const int most = count > 1 ? std::atoi(arguments[1]) : 2;
+    std::printf("| vertices | seconds | CPU seconds | MiB | exponent |\n|---|---|---|---|---|\n");
+    Cost last{};
+    for (int subdivisions = 0; subdivisions <= most; ++subdivisions) {
+        const Cost now = cost_of_fit(subdivisions);
+        std::printf("| %ld | %.2f | %.2f | %.0f | ", static_cast<long>(now.vertices), now.wall, now.cpu, now.mebibytes);
+        if (subdivisions > 0) // of the CPU time, from one row to the next
+            std::printf("%.2f", std::log(now.cpu / last.cpu) /
+                                    std::log(static_cast<double>(now.vertices) / static_cast<double>(last.vertices)));
+        std::printf(" |\n");
+        std::fflush(stdout);
+        last = now;
+    }
+}
