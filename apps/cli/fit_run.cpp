@@ -57,6 +57,9 @@ void add_fit_flags(CLI::App& verb, FitFlags& flags) {
         ->capture_default_str();
     verb.add_flag("--markers-exact", flags.options.markers_exact,
                   "Meet every marker to 1e-9 of the diagonal, also where that leaves the surface a little");
+    verb.add_flag("--on-surface", flags.options.on_surface,
+                  "Leave every vertex exactly on the target; else each is lifted by so much that the triangles between "
+                  "them lie on it in the mean");
     verb.add_option("--kernel", flags.kernel, "Of the paper's marker warp: thin-plate (r^2 log r) or linear (r)")
         ->check(CLI::IsMember({"thin-plate", "linear"}))
         ->capture_default_str();

@@ -90,6 +90,17 @@ const std::vector<Row<FitOptions>>& fit_rows() {
          {"near", "exact"},
          [](const FitOptions& o) { return o.markers_exact ? 1.0 : 0.0; },
          [](FitOptions& o, double v) { o.markers_exact = v == 1; }},
+        {"vertices",
+         "Vertices",
+         "lifted: off the target by so much that the triangles between them lie on it in the mean, twice as close on "
+         "the "
+         "whole. on it: each one exactly.",
+         0,
+         0,
+         {"lifted", "on it"},
+         [](const FitOptions& o) { return o.on_surface ? 1.0 : 0.0; },
+         [](FitOptions& o, double v) { o.on_surface = v == 1; },
+         {"method", "surface"}},
         {"marker_weight",
          "Marker pull",
          "Beside the usual 1. Markers begin to yield to the shapes under 0.0001 or so; with 0 they say the pose only.",

@@ -1,7 +1,7 @@
 #include "meshtween/fit/fit.h"
 
 #include "meshtween/core/error.h"
-#include "meshtween/fit/meet_markers.h"
+#include "meshtween/fit/finish.h"
 #include "meshtween/fit/paper_fit.h"
 #include "meshtween/fit/surface_fit.h"
 #include "meshtween/geometry/measure.h"
@@ -94,14 +94,7 @@ FitResult fit(const Mesh& source, const Mesh& target, std::span<const Marker> ma
     check_mesh(target, "target");
     check_markers(source, markers);
     FitResult result = fit_by_method(source, target, markers, options, progress);
-    if (options.markers_exact && !markers.empty() && result.end != FitEnd::cancelled) {
-        MetMarkers met = meet_markers({result.positions, source.triangles, {}, {}, {}}, target, markers);
-        result.positions = std::move(met.positions);
-        for (const std::size_t k : met.missed)
-            result.notes.push_back(fmt::format("marker '{}' cannot be met exactly beside its neighbours: the source "
-                                               "is too coarse there, refine it or take a marker away",
-                                               markers[k].name));
-    }
+    if (result.end != FitEnd::cancelled) finish_fit(result, source, target, markers, options);
     return result;
 }
 

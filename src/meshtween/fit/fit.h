@@ -25,6 +25,8 @@ struct FitOptions {
     double threshold = 1e-4; // paper: stop where sqrt(E / n), E of Eq. 7 before a round's projection, falls under this
     double least_cosine = 0.3;  // paper: between a vertex normal and the target's normal where it may be projected
     double marker_weight = 1;   // surface, 0..10: of the markers' pull beside the usual; 0: they pose the shell only
+    bool on_surface = false;    // surface: each vertex stays on the target; else they are lifted by so much that the
+                                // triangles between them lie on it in the mean (lift.h)
     bool markers_exact = false; // each marker's point ends on its place, to 1e-9 (meet_markers.h)
     std::function<void(const Points&)> watch; // called each round, from fit's thread, with the whole mesh so far
 };

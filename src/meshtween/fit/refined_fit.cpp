@@ -2,6 +2,7 @@
 
 #include "meshtween/core/error.h"
 #include "meshtween/core/parallel.h"
+#include "meshtween/fit/finish.h"
 #include "meshtween/fit/refine.h"
 #include "meshtween/geometry/measure.h"
 #include "meshtween/geometry/subdivide.h"
@@ -108,10 +109,12 @@ RefinedFit refined_fit(const Mesh& source, const Mesh& target, std::span<const M
                     fmt::format("refining to {} in {} rounds: give a tolerance above 0 and 0 rounds "
                                 "or more",
                                 refine.tolerance, refine.rounds));
+    FitOptions bare = options; // what is too coarse shows where vertices lie on the target
+    bare.on_surface = true, bare.markers_exact = false;
     RefinedFit result;
     result.source = source;
     const auto share = [&](int round) { return std::pow(2.0, round - refine.rounds); }; // later ones take longer
-    result.fit = fit(source, target, markers, options, part_of(progress, 0, share(0)));
+    result.fit = fit(source, target, markers, bare, part_of(progress, 0, share(0)));
     for (int round = 0; result.fit.end != FitEnd::cancelled; ++round) {
         Mesh fitted = result.source;
         fitted.positions = result.fit.positions;
@@ -125,7 +128,7 @@ RefinedFit refined_fit(const Mesh& source, const Mesh& target, std::span<const M
             break;
         }
         Mesh finer = subdivide(result.source, edges, coarse);
-        FitResult next = fit(finer, target, moved_to(finer, source, markers), options,
+        FitResult next = fit(finer, target, moved_to(finer, source, markers), bare,
                              part_of(progress, share(round), share(round + 1)));
         if (next.end == FitEnd::cancelled) {
             result.fit.end = FitEnd::cancelled;
@@ -134,6 +137,8 @@ RefinedFit refined_fit(const Mesh& source, const Mesh& target, std::span<const M
         result.added.push_back(result.left);
         result.source = std::move(finer), result.fit = std::move(next);
     }
+    if (result.fit.end != FitEnd::cancelled)
+        finish_fit(result.fit, result.source, target, moved_to(result.source, source, markers), options);
     return result;
 }
 
