@@ -98,14 +98,13 @@ private:
             quadrics_[static_cast<std::size_t>(v)] += along.squaredNorm() * plane * plane.transpose();
     }
 
-    std::vector<int> neighbours(int v) const {
-        std::vector<int> list;
+    void find_neighbours(int v, std::vector<int>& list) const {
+        list.clear();
         for (const int t : around_[static_cast<std::size_t>(v)])
             for (int k = 0; k < 3; ++k)
                 if (triangles_(t, k) != v) list.push_back(triangles_(t, k));
         std::sort(list.begin(), list.end());
         list.erase(std::unique(list.begin(), list.end()), list.end());
-        return list;
     }
 
     double cost(int v, int to) const {
@@ -118,16 +117,20 @@ private:
 
     void push(int v, bool only_allowed) {
         Candidate best{std::numeric_limits<double>::infinity(), v, -1, ++stamp_[static_cast<std::size_t>(v)]};
-        for (const int to : neighbours(v)) {
+        find_neighbours(v, around_pushed_);
+        for (const int to : around_pushed_) {
             const double c = cost(v, to);
             if (c < best.cost && (!only_allowed || allowed(v, to))) best.cost = c, best.to = to;
         }
         if (best.to >= 0) heap_.push(best);
     }
 
-    bool allowed(int v, int to) const {
+    bool allowed(int v, int to) {
         const auto i = static_cast<std::size_t>(v);
-        std::vector<int> shared, of_v = neighbours(v), of_to = neighbours(to);
+        std::vector<int>&shared = shared_, &of_v = of_v_, &of_to = of_to_;
+        find_neighbours(v, of_v);
+        find_neighbours(to, of_to);
+        shared.clear();
         std::set_intersection(of_v.begin(), of_v.end(), of_to.begin(), of_to.end(), std::back_inserter(shared));
         std::size_t opposite = 0;
         for (const int t : around_[i]) opposite += has(t, to);
@@ -171,7 +174,9 @@ private:
         area_[j] += area_[i];
         --alive_;
         push(to, false);
-        for (const int w : neighbours(to)) push(w, false);
+        std::vector<int>& around = around_kept_;
+        find_neighbours(to, around);
+        for (const int w : around) push(w, false);
     }
 
     const Points& positions_;
@@ -183,6 +188,7 @@ private:
     std::vector<Quadric, Eigen::aligned_allocator<Quadric>> quadrics_;
     Eigen::Index alive_;
     std::priority_queue<Candidate> heap_;
+    std::vector<int> around_pushed_, around_kept_, of_v_, of_to_, shared_; // scratch, made once
 };
 
 // The level that is left of a decimation; `index` gets the new number of each vertex of the mesh, -1 for the gone.

@@ -49,14 +49,18 @@ Points triangle_normals(const Points& positions, const Triangles& triangles) {
 
 Points vertex_normals(const Points& positions, const Triangles& triangles) {
     const Points faces = triangle_normals(positions, triangles);
-    Points normals = Points::Zero(positions.rows(), 3);
-    for (Eigen::Index t = 0; t < triangles.rows(); ++t)
+    Points angles(triangles.rows(), 3);
+    parallel_for(triangles.rows(), [&](Eigen::Index t) {
         for (int k = 0; k < 3; ++k) {
             const Point corner = positions.row(triangles(t, k));
             const Point e = positions.row(triangles(t, (k + 1) % 3)) - corner;
             const Point f = positions.row(triangles(t, (k + 2) % 3)) - corner;
-            normals.row(triangles(t, k)) += std::atan2(e.cross(f).norm(), e.dot(f)) * faces.row(t);
+            angles(t, k) = std::atan2(e.cross(f).norm(), e.dot(f));
         }
+    });
+    Points normals = Points::Zero(positions.rows(), 3);
+    for (Eigen::Index t = 0; t < triangles.rows(); ++t)
+        for (int k = 0; k < 3; ++k) normals.row(triangles(t, k)) += angles(t, k) * faces.row(t);
     parallel_for(normals.rows(), [&](Eigen::Index i) {
         const double length = normals.row(i).norm();
         if (length > 0) normals.row(i) /= length;
