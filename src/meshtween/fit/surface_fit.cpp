@@ -22,6 +22,7 @@ namespace meshtween {
 namespace {
 
 constexpr double first_length = 0.2, last_length = 0.0015; // of the shell: features that it follows, in diagonals
+constexpr double first_slide = 0.01, last_slide = 1e-4;    // coarse levels keep still; the last round lets go
 constexpr int rounds_a_level = 8;
 constexpr double calm_turn = 0.35;          // radians: between two faces or standing bodies all turn less
 constexpr int articulation_rounds = 40;     // with the markers alone, on the coarsest level
@@ -184,8 +185,10 @@ FitResult surface_fit(const Mesh& source, const Mesh& target_mesh, std::span<con
     Points x = articulate(shells, target);
     const int rounds = rounds_a_level * static_cast<int>(levels);
     const double rate = std::pow(last_length / first_length, 1.0 / (rounds - 1));
+    const double slide_rate = std::pow(last_slide / first_slide, 1.0 / (rounds - 1));
     RelaxWeights weights;
     weights.length = first_length;
+    weights.slide = first_slide;
     weights.membrane = 1e-3;
     weights.calm_turn = calm_turn;
     weights.pins *= options.marker_weight;
@@ -193,7 +196,7 @@ FitResult surface_fit(const Mesh& source, const Mesh& target_mesh, std::span<con
     for (const Level& level : shells.levels) work += static_cast<double>(level.positions.rows()) * rounds_a_level;
     for (std::size_t k = levels; k-- > 0;) {
         RelaxMemory memory;
-        for (int round = 0; round < rounds_a_level; ++round, weights.length *= rate) {
+        for (int round = 0; round < rounds_a_level; ++round, weights.length *= rate, weights.slide *= slide_rate) {
             going = going && keep_going(progress, 0.15 + 0.8 * done / work, "fitting");
             if (!going) break;
             Relaxed relaxed = relax(shells, k, x, target, weights, memory);
