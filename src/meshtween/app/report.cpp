@@ -148,6 +148,7 @@ Json fit_places(const Mesh& source, const Mesh& fitted, const Mesh& target, cons
               {"mended", told_triangles(fitted, first_of(result.mended, most))},
               {"flips_left", quality.flipped.size()},
               {"flipped", told_triangles(fitted, first_of(quality.flipped, most))},
+              {"patches_unfolded", result.patches},
               {"cuts_left", quality.cuts.size()},
               {"cuts", told_pairs(fitted, first_of(quality.cuts, most))}}},
             {"worst", worst},

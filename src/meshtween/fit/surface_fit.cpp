@@ -2,7 +2,7 @@
 // bending falls as the fourth power of a length, from a fifth of the target to less than a thousandth; in the limit the
 // shell lies on the surface and its bending alone says where along it each vertex goes.
 //
-// The stages and their papers are in align, shell, refine and settle.
+// The stages and their papers are in align, shell, refine, settle and untangle.
 #include "meshtween/fit/surface_fit.h"
 
 #include "meshtween/core/error.h"
@@ -10,6 +10,7 @@
 #include "meshtween/fit/align.h"
 #include "meshtween/fit/refine.h"
 #include "meshtween/fit/settle.h"
+#include "meshtween/fit/untangle.h"
 #include "meshtween/geometry/measure.h"
 
 #include <Eigen/Eigenvalues>
@@ -17,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace meshtween {
 namespace {
@@ -151,6 +153,30 @@ Points on_finest(const ShellLevels& shells, std::size_t level, Points x) {
     return x;
 }
 
+// Onto the surface, then what is turned over or cut is mended. False where the progress said to stop.
+bool finish(TangleSearch& search, std::span<const Pin> pins, const Progress& progress, Points& x, FitResult& result) {
+    Settled settled = settle(search.shell, x, search.target);
+    result.refused_steps = std::ssize(settled.refused);
+    result.refused = std::move(settled.refused);
+    Untangled untangled = untangle(search, settled.positions, pins, progress);
+    x = std::move(untangled.positions);
+    result.patches = untangled.patches;
+    const std::vector<std::array<int, 2>>& cuts = untangled.left.cuts;
+    const std::vector<int>& left = untangled.left.flips;
+    std::vector<int> seen;
+    std::set_union(settled.mended.begin(), settled.mended.end(), untangled.before.flips.begin(),
+                   untangled.before.flips.end(), std::back_inserter(seen));
+    std::set_difference(seen.begin(), seen.end(), left.begin(), left.end(), std::back_inserter(result.mended));
+    if (!left.empty())
+        result.notes.push_back(fmt::format("{} triangles look into the target's surface, the first of them {}",
+                                           left.size(), left.front()));
+    if (!cuts.empty())
+        result.notes.push_back(fmt::format("{} pairs of triangles cut each other where neither shape does, the first "
+                                           "of them {} and {}",
+                                           cuts.size(), cuts[0][0], cuts[0][1]));
+    return !untangled.cancelled;
+}
+
 void measure_markers(const Points& x, const Mesh& source, std::span<const Marker> markers, const Points& goals,
                      FitResult& result) {
     for (std::size_t k = 0; k < markers.size(); ++k) {
@@ -192,6 +218,7 @@ FitResult surface_fit(const Mesh& source, const Mesh& target_mesh, std::span<con
     weights.membrane = 1e-3;
     weights.calm_turn = calm_turn;
     weights.pins *= options.marker_weight;
+    TangleSearch search{shells.shells[0], target, {}};
     double done = 0, work = 0; // in vertices seen, for the progress
     for (const Level& level : shells.levels) work += static_cast<double>(level.positions.rows()) * rounds_a_level;
     for (std::size_t k = levels; k-- > 0;) {
@@ -200,7 +227,7 @@ FitResult surface_fit(const Mesh& source, const Mesh& target_mesh, std::span<con
             going = going && keep_going(progress, 0.15 + 0.8 * done / work, "fitting");
             if (!going) break;
             Relaxed relaxed = relax(shells, k, x, target, weights, memory);
-            x = std::move(relaxed.positions);
+            x = k == 0 ? held_back(search, x, relaxed.positions) : std::move(relaxed.positions);
             result.weights = std::move(relaxed.trust);
             done += static_cast<double>(x.rows());
             ++result.rounds;
@@ -209,15 +236,7 @@ FitResult surface_fit(const Mesh& source, const Mesh& target_mesh, std::span<con
         weights.membrane = membrane_share(strain(shells.shells[k], x));
         if (k > 0) x = refine_positions(shells, k, x, weights.with_scale);
     }
-    if (going) {
-        Settled settled = settle(shells.shells[0], x, target);
-        x = std::move(settled.positions);
-        result.refused_steps = std::ssize(settled.refused);
-        result.refused = std::move(settled.refused), result.mended = std::move(settled.mended);
-        if (!settled.flipped.empty())
-            result.notes.push_back(fmt::format("{} triangles look into the target's surface, the first of them {}",
-                                               settled.flipped.size(), settled.flipped.front()));
-    }
+    if (going) going = finish(search, shells.pins[0], part_of(progress, 0.95, 1), x, result);
     for (Eigen::Index i = 0; i < x.rows(); ++i) // vertices of no triangle go where the similarity takes them
         if (shells.shells[0].topology.vertex_triangles[i].empty()) x.row(i) = rest.row(i);
     measure_markers(x, source, markers, goals, result);

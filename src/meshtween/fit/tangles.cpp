@@ -1,0 +1,122 @@
+#include "meshtween/fit/tangles.h"
+
+#include "meshtween/fit/settle.h"
+#include "meshtween/search/self_intersections.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace meshtween {
+namespace {
+
+using Pairs = std::vector<std::array<int, 2>>;
+
+std::size_t idx(std::ptrdiff_t i) {
+    return static_cast<std::size_t>(i);
+}
+
+std::vector<char> cut_places(const FitTarget& target) {
+    std::vector<char> corner(idx(target.positions.rows()), 0), flag(idx(target.triangles.rows()), 0);
+    for (const auto& pair : self_intersections(target.positions, target.triangles))
+        for (const int t : pair)
+            for (int k = 0; k < 3; ++k) corner[idx(target.triangles(t, k))] = 1;
+    for (Eigen::Index t = 0; t < target.triangles.rows(); ++t)
+        for (int k = 0; k < 3; ++k) flag[idx(t)] |= corner[idx(target.triangles(t, k))];
+    return flag;
+}
+
+const KnownCuts& known(TangleSearch& search) {
+    if (!search.known)
+        search.known =
+            KnownCuts{self_intersections(search.shell.rest, search.shell.triangles), cut_places(search.target)};
+    return *search.known;
+}
+
+// The triangle lies where the target cuts itself.
+bool at_cut(TangleSearch& search, const Points& positions, int t) {
+    const Triangles& triangles = search.shell.triangles;
+    const Point centre =
+        (positions.row(triangles(t, 0)) + positions.row(triangles(t, 1)) + positions.row(triangles(t, 2))) / 3;
+    return known(search).target[idx(search.target.index.closest(centre).where.triangle)] != 0;
+}
+
+Pairs without_known(TangleSearch& search, const Points& positions, const Pairs& cuts) {
+    if (cuts.empty()) return {};
+    const Pairs& own = known(search).source;
+    Pairs fresh;
+    std::set_difference(cuts.begin(), cuts.end(), own.begin(), own.end(), std::back_inserter(fresh));
+    std::erase_if(fresh, [&](const std::array<int, 2>& pair) {
+        return at_cut(search, positions, pair[0]) || at_cut(search, positions, pair[1]);
+    });
+    return fresh;
+}
+
+// The triangles that come near a chosen one, by a grid of cells over the mesh.
+std::vector<int> near_chosen(const Points& positions, const Triangles& triangles, const std::vector<char>& chosen) {
+    constexpr int cells = 64; // along each side of the mesh's box
+    const Point low = positions.colwise().minCoeff(), high = positions.colwise().maxCoeff();
+    const Point per_unit = cells / (high - low).cwiseMax(1e-12).array();
+    const auto each_cell = [&](Eigen::Index t, const auto& visit) {
+        Point least = positions.row(triangles(t, 0)), most = least;
+        for (int k = 1; k < 3; ++k) {
+            least = least.cwiseMin(positions.row(triangles(t, k)));
+            most = most.cwiseMax(positions.row(triangles(t, k)));
+        }
+        const auto cell = [&](const Point& p, int k) {
+            return std::clamp(static_cast<int>((p[k] - low[k]) * per_unit[k]), 0, cells - 1);
+        };
+        for (int x = cell(least, 0); x <= cell(most, 0); ++x)
+            for (int y = cell(least, 1); y <= cell(most, 1); ++y)
+                for (int z = cell(least, 2); z <= cell(most, 2); ++z) visit(idx((x * cells + y) * cells + z));
+    };
+    std::vector<char> marked(idx(cells * cells * cells), 0);
+    for (Eigen::Index t = 0; t < triangles.rows(); ++t)
+        if (chosen[idx(t)]) each_cell(t, [&](std::size_t cell) { marked[cell] = 1; });
+    std::vector<int> near;
+    for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+        char any = 0;
+        each_cell(t, [&](std::size_t cell) { any |= marked[cell]; });
+        if (any) near.push_back(static_cast<int>(t));
+    }
+    return near;
+}
+
+} // namespace
+
+Pairs new_cuts(TangleSearch& search, const Points& positions) {
+    return without_known(search, positions, self_intersections(positions, search.shell.triangles));
+}
+
+Pairs new_cuts(TangleSearch& search, const Points& positions, const std::vector<char>& chosen) {
+    if (std::find(chosen.begin(), chosen.end(), 1) == chosen.end()) return {};
+    const std::vector<int> near = near_chosen(positions, search.shell.triangles, chosen);
+    Pairs cuts = self_intersections(positions, search.shell.triangles(near, Eigen::all));
+    for (auto& pair : cuts) pair = {near[idx(pair[0])], near[idx(pair[1])]}; // ascending, as `near` is
+    std::erase_if(cuts, [&](const auto& pair) { return !chosen[idx(pair[0])] && !chosen[idx(pair[1])]; });
+    return without_known(search, positions, cuts);
+}
+
+Tangles tangles(TangleSearch& search, const Points& positions) {
+    Tangles result{flipped_triangles(positions, search.shell.triangles, search.target), new_cuts(search, positions)};
+    std::erase_if(result.flips, [&](int t) { return at_cut(search, positions, t); });
+    return result;
+}
+
+Tangles tangles(TangleSearch& search, const Points& positions, const Tangles& before, const std::vector<char>& moved) {
+    std::vector<int> numbers;
+    for (std::size_t t = 0; t < moved.size(); ++t)
+        if (moved[t]) numbers.push_back(static_cast<int>(t));
+    Tangles fresh{flipped_triangles(positions, search.shell.triangles(numbers, Eigen::all), search.target),
+                  new_cuts(search, positions, moved)};
+    for (int& t : fresh.flips) t = numbers[idx(t)];
+    std::erase_if(fresh.flips, [&](int t) { return at_cut(search, positions, t); });
+    std::copy_if(before.flips.begin(), before.flips.end(), std::back_inserter(fresh.flips),
+                 [&](int t) { return !moved[idx(t)]; });
+    std::copy_if(before.cuts.begin(), before.cuts.end(), std::back_inserter(fresh.cuts),
+                 [&](const auto& pair) { return !moved[idx(pair[0])] && !moved[idx(pair[1])]; });
+    std::sort(fresh.flips.begin(), fresh.flips.end());
+    std::sort(fresh.cuts.begin(), fresh.cuts.end());
+    return fresh;
+}
+
+} // namespace meshtween

@@ -1,0 +1,43 @@
+// Where a fitted mesh is turned over or cuts itself, though neither of the two shapes does there.
+#pragma once
+
+#include "meshtween/core/mesh.h"
+#include "meshtween/fit/refine.h"
+#include "meshtween/fit/shell.h"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace meshtween {
+
+// Cuts of the shapes themselves: no fit has to mend them.
+struct KnownCuts {
+    std::vector<std::array<int, 2>> source; // pairs of triangles, ascending
+    std::vector<char> target;               // a flag a triangle: it touches one that cuts another
+};
+
+// What is looked at; both must outlive it. `known` is found when first needed: most fits have no cuts to ask about.
+struct TangleSearch {
+    const Shell& shell;
+    const FitTarget& target;
+    std::optional<KnownCuts> known;
+};
+
+// Pairs of triangles that cut each other, ascending, without those that do so in the source and those that lie where
+// the target does. With `chosen`, a flag a triangle, only pairs with a chosen triangle are looked for.
+std::vector<std::array<int, 2>> new_cuts(TangleSearch& search, const Points& positions);
+std::vector<std::array<int, 2>> new_cuts(TangleSearch& search, const Points& positions,
+                                         const std::vector<char>& chosen);
+
+struct Tangles {
+    std::vector<int> flips;               // triangles that look into the target, ascending, without those at its cuts
+    std::vector<std::array<int, 2>> cuts; // new_cuts
+    std::size_t count() const { return flips.size() + cuts.size(); }
+};
+Tangles tangles(TangleSearch& search, const Points& positions);
+
+// The same after the vertices of the `moved` triangles, a flag each, have moved.
+Tangles tangles(TangleSearch& search, const Points& positions, const Tangles& before, const std::vector<char>& moved);
+
+} // namespace meshtween

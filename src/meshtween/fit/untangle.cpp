@@ -1,0 +1,222 @@
+// First comes prevention: most folds begin small, late, and unfold by themselves once what surrounds them has settled.
+// What is left is laid out anew, since moving vertices one by one cannot turn several layers back into one.
+#include "meshtween/fit/untangle.h"
+
+#include "meshtween/core/parallel.h"
+#include "meshtween/fit/unfold.h"
+#include "meshtween/geometry/measure.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meshtween {
+namespace {
+
+constexpr int tries = 4;         // sizes of a patch
+constexpr int least_rings = 3;   // around a fault
+constexpr double widening = 1.7; // from one size to the next
+
+std::size_t idx(std::ptrdiff_t i) {
+    return static_cast<std::size_t>(i);
+}
+
+// Values spread to neighbours, less `loss` for each ring.
+void spread(const Lists& neighbours, std::vector<double>& values, double loss) {
+    std::vector<double> wider = values;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        for (const int j : neighbours[static_cast<std::ptrdiff_t>(i)])
+            wider[i] = std::max(wider[i], values[idx(j)] - loss);
+    values.swap(wider);
+}
+
+struct Patches {
+    std::vector<FoldedPatch> list;
+    std::vector<int> of; // a vertex: its patch or -1
+    int of_triangle(const Triangles& triangles, int t) const {
+        int patch = -1;
+        for (int k = 0; k < 3; ++k) patch = std::max(patch, of[idx(triangles(t, k))]);
+        return patch;
+    }
+};
+
+// What lies within `rings` of a fault, in connected parts.
+Patches patches_around(const Shell& shell, const Tangles& faults, int rings) {
+    std::vector<int> ring(shell.area.size(), -1), queue;
+    const auto start = [&](int t) {
+        for (int k = 0; k < 3; ++k) {
+            const int i = shell.triangles(t, k);
+            if (ring[idx(i)] < 0) ring[idx(i)] = 0, queue.push_back(i);
+        }
+    };
+    for (const int t : faults.flips) start(t);
+    for (const auto& pair : faults.cuts) start(pair[0]), start(pair[1]);
+    for (std::size_t k = 0; k < queue.size() && ring[idx(queue[k])] < rings; ++k)
+        for (const int j : shell.topology.neighbours[queue[k]])
+            if (ring[idx(j)] < 0) ring[idx(j)] = ring[idx(queue[k])] + 1, queue.push_back(j);
+    for (const int i : queue)
+        if (shell.topology.on_boundary[idx(i)]) ring[idx(i)] = -1;
+    Patches patches{{}, std::vector<int>(shell.area.size(), -1)};
+    for (const int seed : queue) {
+        if (ring[idx(seed)] < 0 || patches.of[idx(seed)] >= 0) continue;
+        const auto number = static_cast<int>(patches.list.size());
+        FoldedPatch patch;
+        patch.vertices.push_back(seed);
+        patches.of[idx(seed)] = number;
+        for (std::size_t k = 0; k < patch.vertices.size(); ++k)
+            for (const int j : shell.topology.neighbours[patch.vertices[k]])
+                if (ring[idx(j)] >= 0 && patches.of[idx(j)] < 0) {
+                    patches.of[idx(j)] = number;
+                    patch.vertices.push_back(j);
+                }
+        std::sort(patch.vertices.begin(), patch.vertices.end());
+        for (const int i : patch.vertices) patch.remote.push_back(static_cast<double>(ring[idx(i)]) / rings);
+        patches.list.push_back(std::move(patch));
+    }
+    return patches;
+}
+
+// The triangle of the mesh that answers for each sample, or -1.
+std::vector<int> answering(const Shell& shell, const Points& positions, const std::vector<TargetSample>& samples) {
+    constexpr double reach = 0.3;
+    const ClosestPointIndex index(positions, shell.triangles);
+    std::vector<int> triangle(samples.size());
+    parallel_for(std::ssize(samples), [&](std::ptrdiff_t k) {
+        const TargetSample& sample = samples[idx(k)];
+        triangle[idx(k)] = index.closest(sample.position, Compatible{sample.normal, 0}, reach).where.triangle;
+    });
+    return triangle;
+}
+
+std::vector<long> faults_of(const Patches& patches, const Triangles& triangles, const Tangles& faults) {
+    std::vector<long> count(patches.list.size(), 0);
+    const auto add = [&](int patch) {
+        if (patch >= 0) ++count[idx(patch)];
+    };
+    for (const int t : faults.flips) add(patches.of_triangle(triangles, t));
+    for (const auto& pair : faults.cuts)
+        add(std::max(patches.of_triangle(triangles, pair[0]), patches.of_triangle(triangles, pair[1])));
+    return count;
+}
+
+// The target as the patches share it.
+struct Cover {
+    std::vector<TargetSample> samples;
+    std::vector<int> triangles; // of the mesh, that answer for them
+};
+
+// Swaps the patch's places in x.
+void put(const FoldedPatch& patch, Points& places, Points& x) {
+    for (std::size_t i = 0; i < patch.vertices.size(); ++i)
+        x.row(patch.vertices[i]).swap(places.row(static_cast<Eigen::Index>(i)));
+}
+
+// Every patch laid out anew, then those taken back that are no better.
+void mend(TangleSearch& search, Patches& patches, const Cover& cover, std::span<const Pin> pins, Untangled& result) {
+    const Shell& shell = search.shell;
+    for (std::size_t k = 0; k < cover.samples.size(); ++k)
+        if (cover.triangles[k] >= 0)
+            if (const int patch = patches.of_triangle(shell.triangles, cover.triangles[k]); patch >= 0)
+                patches.list[idx(patch)].samples.push_back(static_cast<int>(k));
+    std::vector<Points> places(patches.list.size());
+    parallel_for(
+        std::ssize(places),
+        [&](std::ptrdiff_t k) {
+            places[idx(k)] =
+                unfolded(shell, result.positions, patches.list[idx(k)], search.target, cover.samples, pins);
+        },
+        1);
+    std::vector<char> moved(idx(shell.triangles.rows()));
+    for (Eigen::Index t = 0; t < shell.triangles.rows(); ++t)
+        moved[idx(t)] = patches.of_triangle(shell.triangles, static_cast<int>(t)) >= 0;
+    Points trial = result.positions;
+    for (std::size_t k = 0; k < places.size(); ++k) put(patches.list[k], places[k], trial);
+    Tangles left = tangles(search, trial, result.left, moved);
+    const auto before = faults_of(patches, shell.triangles, result.left),
+               after = faults_of(patches, shell.triangles, left);
+    int better = 0;
+    bool all = true;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        if (after[k] < before[k]) {
+            ++better;
+            continue;
+        }
+        put(patches.list[k], places[k], trial);
+        all = false;
+    }
+    if (better == 0) return;
+    if (!all) left = tangles(search, trial, result.left, moved);
+    if (left.count() >= result.left.count()) return; // patches beside each other may spoil each other
+    result.positions = std::move(trial);
+    result.left = std::move(left);
+    result.patches += better;
+}
+
+// The triangles around edges where the mesh is folded by more than a right angle.
+std::vector<char> folded(const Shell& shell, const Points& x) {
+    std::vector<char> corner(shell.area.size(), 0), result(idx(shell.triangles.rows()), 0);
+    const Points normals = triangle_normals(x, shell.triangles);
+    for (const Edge& edge : shell.topology.edges) {
+        if (edge.count != 2) continue;
+        const auto [s, t] = edge.triangles;
+        if (normals.row(s).dot(normals.row(t)) >= 0) continue;
+        for (int k = 0; k < 3; ++k) corner[idx(shell.triangles(s, k))] = corner[idx(shell.triangles(t, k))] = 1;
+    }
+    for (Eigen::Index t = 0; t < shell.triangles.rows(); ++t)
+        for (int k = 0; k < 3; ++k) result[idx(t)] |= corner[idx(shell.triangles(t, k))];
+    return result;
+}
+
+template <typename Flag>
+void mark_corners(const Triangles& triangles, const std::array<int, 2>& pair, std::vector<Flag>& corners) {
+    for (const int t : pair)
+        for (int k = 0; k < 3; ++k) corners[idx(triangles(t, k))] = 1;
+}
+
+} // namespace
+
+Points held_back(TangleSearch& search, const Points& before, const Points& now) {
+    constexpr int rounds = 3;
+    constexpr double fading = 0.25; // a ring
+    const Triangles& triangles = search.shell.triangles;
+    const Lists& neighbours = search.shell.topology.neighbours;
+    Points result = now;
+    std::vector<char> cut_before(search.shell.area.size(), 0);
+    for (int round = 0; round < rounds; ++round) {
+        const std::vector<char> seen = folded(search.shell, result);
+        const auto cuts = new_cuts(search, result, seen);
+        if (cuts.empty()) break;
+        if (round == 0)
+            for (const auto& pair : new_cuts(search, before, seen)) mark_corners(triangles, pair, cut_before);
+        std::vector<double> share(search.shell.area.size(), 0.0);
+        const auto lost = [&](int t) {
+            return cut_before[idx(triangles(t, 0))] || cut_before[idx(triangles(t, 1))] ||
+                   cut_before[idx(triangles(t, 2))];
+        };
+        for (const auto& pair : cuts)
+            if (!lost(pair[0]) && !lost(pair[1])) mark_corners(triangles, pair, share);
+        spread(neighbours, share, 0);
+        for (double reached = 1; reached > fading; reached -= fading) spread(neighbours, share, fading);
+        for (Eigen::Index i = 0; i < result.rows(); ++i)
+            if (share[idx(i)] > 0) result.row(i) += share[idx(i)] * (before.row(i) - result.row(i));
+    }
+    return result;
+}
+
+Untangled untangle(TangleSearch& search, const Points& positions, std::span<const Pin> pins, const Progress& progress) {
+    Untangled result{positions, tangles(search, positions), {}};
+    result.left = result.before;
+    if (result.left.count() == 0) return result;
+    Cover cover{target_samples(search.target), {}};
+    cover.triangles = answering(search.shell, positions, cover.samples);
+    double rings = least_rings;
+    for (int k = 0; k < tries && result.left.count() > 0; ++k, rings *= widening) {
+        result.cancelled = !keep_going(progress, static_cast<double>(k) / tries, "untangling");
+        if (result.cancelled) break;
+        Patches patches = patches_around(search.shell, result.left, static_cast<int>(rings));
+        for (FoldedPatch& patch : patches.list) patch.any_sheet = k % 2 == 0; // each way mends what the other does not
+        mend(search, patches, cover, pins, result);
+    }
+    return result;
+}
+
+} // namespace meshtween

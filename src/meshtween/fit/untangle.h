@@ -1,0 +1,31 @@
+// A fitted mesh whose triangles are turned over or cut each other, mended patch by patch.
+#pragma once
+
+#include "meshtween/core/progress.h"
+#include "meshtween/fit/refine.h"
+#include "meshtween/fit/shell.h"
+#include "meshtween/fit/tangles.h"
+
+#include <span>
+#include <vector>
+
+namespace meshtween {
+
+// `now`, but near new cuts the vertices stay where they were `before`, fading out over a few rings: what would fold
+// waits until the rest has moved on. Looked for where the mesh is folded by more than a right angle; what was cut
+// already is not waited for.
+Points held_back(TangleSearch& search, const Points& before, const Points& now);
+
+struct Untangled {
+    Points positions;
+    Tangles before, left;
+    int patches = 0;        // that were laid out anew and are better for it
+    bool cancelled = false; // the progress said so: the positions are the best so far
+};
+
+// Each connected patch of faults and the rings around it are laid out anew (unfolded) with all else held; where that
+// leaves fewer faults it is kept, then a wider patch is tried. A mesh without faults comes back as it was.
+Untangled untangle(TangleSearch& search, const Points& positions, std::span<const Pin> pins,
+                   const Progress& progress = {});
+
+} // namespace meshtween

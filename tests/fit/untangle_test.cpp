@@ -1,0 +1,166 @@
+#include "meshtween/fit/untangle.h"
+
+#include "meshtween/core/parallel.h"
+#include "meshtween/geometry/measure.h"
+#include "meshtween/geometry/shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+using namespace meshtween;
+
+namespace {
+
+struct Ball {
+    Mesh mesh = sphere(4);
+    Shell shell;
+    FitTarget target;
+    Ball() : target(make()) { shell = meshtween::shell(mesh.positions, mesh.triangles); }
+    FitTarget make() {
+        mesh.positions /= diagonal(mesh.positions);
+        const Mesh finer = sphere(5);
+        return fit_target(finer.positions / diagonal(finer.positions), finer.triangles);
+    }
+    TangleSearch search() const { return {shell, target, {}}; }
+};
+
+// What lies around the north pole slid to one side until it lies over its surroundings, in three layers.
+Points folded_over(const Points& positions, double how_far) {
+    Points x = positions;
+    const double radius = positions.row(0).norm();
+    for (Eigen::Index i = 0; i < x.rows(); ++i) {
+        const double angle = std::acos(std::clamp(x(i, 2) / radius, -1.0, 1.0));
+        const double share = std::max(0.0, 1 - angle / 0.5);
+        Point moved = x.row(i);
+        moved[0] += how_far * radius * share;
+        x.row(i) = moved.normalized() * radius;
+    }
+    return x;
+}
+
+TEST(Untangle, ACleanMeshComesBackBitForBit) {
+    const Ball ball;
+    TangleSearch search = ball.search();
+    const Untangled result = untangle(search, ball.mesh.positions, {});
+    EXPECT_EQ(result.positions, ball.mesh.positions);
+    EXPECT_EQ(result.left.count(), 0u);
+    EXPECT_EQ(result.patches, 0);
+    EXPECT_EQ(held_back(search, ball.mesh.positions, folded_over(ball.mesh.positions, 0.1)),
+              folded_over(ball.mesh.positions, 0.1));
+}
+
+TEST(Untangle, AFoldIsUndoneAndTheRestIsHeld) {
+    const Ball ball;
+    TangleSearch search = ball.search();
+    const Points folded = folded_over(ball.mesh.positions, 1.0);
+    const Untangled result = untangle(search, folded, {});
+    EXPECT_GT(result.before.flips.size(), 10u);
+    EXPECT_GT(result.before.cuts.size(), 10u);
+    EXPECT_EQ(result.left.count(), 0u);
+    EXPECT_GE(result.patches, 1);
+    const double radius = ball.mesh.positions.row(0).norm();
+    for (Eigen::Index i = 0; i < folded.rows(); ++i) {
+        EXPECT_NEAR(result.positions.row(i).norm(), radius, 0.01 * radius); // on the ball
+        if (folded(i, 2) < -0.5 * radius) {
+            EXPECT_EQ(result.positions.row(i), folded.row(i));
+        }
+    }
+    EXPECT_EQ(tangles(search, result.positions).count(), 0u);
+}
+
+TEST(Untangle, TheSameBitsForAnyNumberOfThreads) {
+    const Ball ball;
+    const Points folded = folded_over(ball.mesh.positions, 1.0);
+    TangleSearch one = ball.search(), two = ball.search();
+    set_threads(1);
+    const Points alone = untangle(one, folded, {}).positions;
+    set_threads(3);
+    EXPECT_EQ(untangle(two, folded, {}).positions, alone);
+    set_threads(0);
+}
+
+TEST(Untangle, WhatCannotBeMendedIsToldAndLeftAsItIs) {
+    // A strip without inner vertices, which crosses itself: none of it may move.
+    Mesh strip;
+    strip.positions.resize(8, 3);
+    strip.positions << 0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 1, 0.3, 0.5, 1, 0.6, 0.5, 0.5, 0.3, -0.5, 0.5, 0.6, -0.5;
+    strip.triangles.resize(6, 3);
+    strip.triangles << 0, 2, 1, 1, 2, 3, 2, 4, 3, 3, 4, 5, 4, 6, 5, 5, 6, 7;
+    Points flat = strip.positions;
+    for (Eigen::Index i = 0; i < 8; ++i) flat.row(i) << static_cast<double>(i / 2), i % 2, 0; // not cut at rest
+    const Shell rest = shell(flat / diagonal(flat), strip.triangles);
+    const Mesh ball = sphere(3);
+    const FitTarget target = fit_target(ball.positions, ball.triangles);
+    TangleSearch search{rest, target, {}};
+    const Untangled result = untangle(search, strip.positions, {});
+    EXPECT_FALSE(result.left.cuts.empty());
+    EXPECT_EQ(result.left.cuts, result.before.cuts);
+    EXPECT_EQ(result.positions, strip.positions);
+    EXPECT_EQ(result.patches, 0);
+}
+
+TEST(Untangle, CutsOfTheShapesThemselvesAreNoFault) {
+    const Ball ball;
+    const Points folded = folded_over(ball.mesh.positions, 1.0);
+    const Shell own = shell(folded, ball.mesh.triangles); // the source is folded: so may be the fit
+    TangleSearch in_source{own, ball.target, {}};
+    EXPECT_TRUE(tangles(in_source, folded).cuts.empty());
+    const FitTarget target = fit_target(folded, ball.mesh.triangles); // or the target
+    TangleSearch in_target{ball.shell, target, {}};
+    EXPECT_TRUE(tangles(in_target, folded).cuts.empty());
+}
+
+TEST(Untangle, ProgressIsToldAndCancellingIsAResult) {
+    const Ball ball;
+    TangleSearch search = ball.search();
+    const Points folded = folded_over(ball.mesh.positions, 1.0);
+    std::string stage;
+    const Untangled result = untangle(search, folded, {}, [&](double, std::string_view name) {
+        stage = name;
+        return false;
+    });
+    EXPECT_TRUE(result.cancelled);
+    EXPECT_EQ(stage, "untangling");
+    EXPECT_EQ(result.positions, folded);
+    EXPECT_EQ(result.left.count(), result.before.count());
+}
+
+TEST(HeldBack, OnlyWhatWouldFoldWaits) {
+    const Ball ball;
+    TangleSearch search = ball.search();
+    const Points before = ball.mesh.positions, now = folded_over(before, 1.0) * 1.01;
+    const Points result = held_back(search, before, now);
+    EXPECT_TRUE(new_cuts(search, result).empty());
+    EXPECT_FALSE(new_cuts(search, now).empty());
+    for (Eigen::Index i = 0; i < before.rows(); ++i)
+        if (before(i, 2) < 0) {
+            EXPECT_EQ(result.row(i), now.row(i));
+        }
+}
+
+TEST(HeldBack, WhatWasCutAlreadyGoesOn) {
+    const Ball ball;
+    TangleSearch search = ball.search();
+    const Points before = folded_over(ball.mesh.positions, 1.0), now = before * 1.01;
+    EXPECT_EQ(held_back(search, before, now), now);
+}
+
+TEST(Tangles, TheChosenAloneFindWhatAllDo) {
+    const Ball ball;
+    TangleSearch search = ball.search();
+    const Points folded = folded_over(ball.mesh.positions, 1.0);
+    const auto all = new_cuts(search, folded);
+    ASSERT_FALSE(all.empty());
+    std::vector<char> chosen(static_cast<std::size_t>(ball.mesh.triangles.rows()), 0);
+    for (const auto& pair : all) chosen[static_cast<std::size_t>(pair[0])] = 1;
+    EXPECT_EQ(new_cuts(search, folded, chosen), all);
+    const Tangles none = tangles(search, ball.mesh.positions);
+    const Tangles after = tangles(search, folded, none, chosen);
+    EXPECT_EQ(after.cuts, all);
+    const std::vector<char> every(chosen.size(), 1);
+    EXPECT_EQ(tangles(search, folded, none, every).flips, tangles(search, folded).flips);
+}
+
+} // namespace
