@@ -81,10 +81,13 @@ double fold_energy(const FoldEnergy& energy, const Points& x, Points& gradient) 
     return sum;
 }
 
+double stretch(const FoldEnergy& energy, const Points& x, Eigen::Index triangle) {
+    return turn(map_of(energy, x, triangle), energy.outward[idx(triangle)]);
+}
+
 double least_stretch(const FoldEnergy& energy, const Points& x) {
     double least = 1;
-    for (Eigen::Index t = 0; t < energy.triangles.rows(); ++t)
-        least = std::min(least, turn(map_of(energy, x, t), energy.outward[idx(t)]));
+    for (Eigen::Index t = 0; t < energy.triangles.rows(); ++t) least = std::min(least, stretch(energy, x, t));
     return least;
 }
 

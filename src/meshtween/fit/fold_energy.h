@@ -36,7 +36,8 @@ struct FoldEnergy {
 // At x (all vertices of the patch), with the gradient for the free ones.
 double fold_energy(const FoldEnergy& energy, const Points& x, Points& gradient);
 
-// The smallest of the triangles' areas over those at rest, negative for one turned over.
+// The area of a triangle over that at rest, negative for one turned over; and the smallest of all.
+double stretch(const FoldEnergy& energy, const Points& x, Eigen::Index triangle);
 double least_stretch(const FoldEnergy& energy, const Points& x);
 
 // Two edges of a triangle in its own plane, from its first corner, as columns; none is flatter than a thousandth of its

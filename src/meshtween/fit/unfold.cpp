@@ -178,6 +178,34 @@ std::vector<FoldPull> held_markers(const Shell& shell, const Points& positions, 
     return held;
 }
 
+// The patch onto the surface, each step halved, then refused, where it would crush a triangle: outside a sharp corner
+// of the surface many vertices are closest to one point.
+Points set_down(const FitTarget& target, const Piece& piece) {
+    constexpr double reach = 0.01, least_left = 0.1; // diagonals; of a triangle's stretch
+    constexpr int halvings = 4;
+    const FoldEnergy& energy = piece.energy;
+    Points goals = piece.x, now = piece.x;
+    for (Eigen::Index i = 0; i < energy.free; ++i) {
+        const Compatible compatible{energy.normals[idx(i)], least_cosine};
+        const ClosestPoint onto = target.index.closest(Point(piece.x.row(i)), compatible, reach);
+        if (onto.found()) goals.row(i) = onto.position;
+    }
+    std::vector<double> share(piece.vertices.size(), 1.0);
+    for (int round = 0; round <= halvings; ++round) {
+        for (Eigen::Index i = 0; i < energy.free; ++i)
+            now.row(i) = piece.x.row(i) + share[idx(i)] * (goals.row(i) - piece.x.row(i));
+        std::vector<char> shorten(share.size(), 0);
+        for (Eigen::Index t = 0; t < energy.triangles.rows(); ++t) {
+            const double before = stretch(energy, piece.x, t);
+            if (before <= 0 || stretch(energy, now, t) >= least_left * before) continue;
+            for (int k = 0; k < 3; ++k) shorten[idx(energy.triangles(t, k))] = 1;
+        }
+        for (std::size_t i = 0; i < share.size(); ++i)
+            if (shorten[i]) share[i] = round + 1 >= halvings ? 0 : share[i] / 2;
+    }
+    return now.topRows(energy.free);
+}
+
 } // namespace
 
 std::vector<TargetSample> target_samples(const FitTarget& target) {
@@ -227,14 +255,7 @@ Points unfolded(const Shell& shell, const Points& positions, const FoldedPatch& 
             },
             options);
     }
-    Points result = piece.x.topRows(energy.free);
-    for (Eigen::Index i = 0; i < energy.free; ++i) {
-        constexpr double reach = 0.01;
-        const ClosestPoint onto =
-            target.index.closest(Point(result.row(i)), Compatible{energy.normals[idx(i)], least_cosine}, reach);
-        if (onto.found()) result.row(i) = onto.position;
-    }
-    return result;
+    return set_down(target, piece);
 }
 
 } // namespace meshtween

@@ -12,9 +12,9 @@
 namespace meshtween {
 namespace {
 
-constexpr int tries = 4;         // sizes of a patch
+constexpr int tries = 6;         // sizes of a patch
 constexpr int least_rings = 3;   // around a fault
-constexpr double widening = 1.7; // from one size to the next
+constexpr double widening = 1.4; // from one size to the next
 
 std::size_t idx(std::ptrdiff_t i) {
     return static_cast<std::size_t>(i);
