@@ -27,12 +27,12 @@ struct Ball {
 };
 
 // What lies around the north pole slid to one side until it lies over its surroundings, in three layers.
-Points folded_over(const Points& positions, double how_far) {
+Points folded_over(const Points& positions, double how_far, double wide = 0.5) {
     Points x = positions;
     const double radius = positions.row(0).norm();
     for (Eigen::Index i = 0; i < x.rows(); ++i) {
         const double angle = std::acos(std::clamp(x(i, 2) / radius, -1.0, 1.0));
-        const double share = std::max(0.0, 1 - angle / 0.5);
+        const double share = std::max(0.0, 1 - angle / wide);
         Point moved = x.row(i);
         moved[0] += how_far * radius * share;
         x.row(i) = moved.normalized() * radius;
@@ -145,6 +145,20 @@ TEST(HeldBack, WhatWasCutAlreadyGoesOn) {
     TangleSearch search = ball.search();
     const Points before = folded_over(ball.mesh.positions, 1.0), now = before * 1.01;
     EXPECT_EQ(held_back(search, before, now), now);
+}
+
+TEST(Eased, ASmallFoldGoesAndTheRestStays) {
+    const Ball ball;
+    TangleSearch search = ball.search();
+    EXPECT_EQ(eased(search, ball.mesh.positions), ball.mesh.positions);
+    const Points x = folded_over(ball.mesh.positions, 0.3, 0.2);
+    ASSERT_FALSE(new_cuts(search, x).empty());
+    const Points result = eased(search, x);
+    EXPECT_TRUE(new_cuts(search, result).empty());
+    for (Eigen::Index i = 0; i < x.rows(); ++i)
+        if (x(i, 2) < 0) {
+            EXPECT_EQ(result.row(i), x.row(i));
+        }
 }
 
 TEST(Tangles, TheChosenAloneFindWhatAllDo) {

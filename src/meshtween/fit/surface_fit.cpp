@@ -235,6 +235,7 @@ FitResult surface_fit(const Mesh& source, const Mesh& target_mesh, std::span<con
         }
         weights.membrane = membrane_share(strain(shells.shells[k], x));
         if (k > 0) x = refine_positions(shells, k, x, weights.with_scale);
+        if (k == 1 && going) x = eased(search, x);
     }
     if (going) going = finish(search, shells.pins[0], part_of(progress, 0.95, 1), x, result);
     for (Eigen::Index i = 0; i < x.rows(); ++i) // vertices of no triangle go where the similarity takes them

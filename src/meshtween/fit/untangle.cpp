@@ -202,6 +202,30 @@ Points held_back(TangleSearch& search, const Points& before, const Points& now) 
     return result;
 }
 
+Points eased(TangleSearch& search, const Points& positions) {
+    constexpr int rounds = 12;
+    const Lists& neighbours = search.shell.topology.neighbours;
+    Points best = positions, trial = positions;
+    std::size_t fewest = 0;
+    for (int round = 0; round <= rounds; ++round) {
+        const auto cuts = new_cuts(search, trial, folded(search.shell, trial));
+        if (round == 0) fewest = cuts.size();
+        if (cuts.size() < fewest) fewest = cuts.size(), best = trial;
+        if (cuts.empty()) break;
+        std::vector<double> near(search.shell.area.size(), 0.0);
+        for (const auto& pair : cuts) mark_corners(search.shell.triangles, pair, near);
+        spread(neighbours, near, 0);
+        const Points last = trial;
+        for (Eigen::Index i = 0; i < trial.rows(); ++i) {
+            if (near[idx(i)] == 0 || search.shell.topology.on_boundary[idx(i)]) continue;
+            Point mean(0, 0, 0);
+            for (const int j : neighbours[i]) mean += last.row(j);
+            trial.row(i) = 0.5 * (last.row(i) + mean / static_cast<double>(neighbours[i].size()));
+        }
+    }
+    return best;
+}
+
 Untangled untangle(TangleSearch& search, const Points& positions, std::span<const Pin> pins, const Progress& progress) {
     Untangled result{positions, tangles(search, positions), {}};
     result.left = result.before;

@@ -11,6 +11,10 @@
 
 namespace meshtween {
 
+// Vertices near new cuts go towards the mean of their neighbours until none, or fewest, of the cuts are left: what is
+// interpolated from a coarser level may be folded in small places, and a clean start can be kept clean.
+Points eased(TangleSearch& search, const Points& positions);
+
 // `now`, but near new cuts the vertices stay where they were `before`, fading out over a few rings: what would fold
 // waits until the rest has moved on. Looked for where the mesh is folded by more than a right angle; what was cut
 // already is not waited for.
