@@ -16,7 +16,7 @@ constexpr int rounds = 8, rounds_without_pulls = 3;
 constexpr int smoothing = 10;        // rounds, of the normals by which a vertex tells the sheet it belongs to
 constexpr double least_cosine = 0.3; // between a vertex's look and the surface's, where it is asked for
 constexpr double near = 0.05;        // diagonals: the surface is looked for no further away
-constexpr double stay = 0.3, cover = 0.2, hold_marker = 1; // weights beside closeness
+constexpr double stay = 0.3, cover = 0.2, hold_marker = 10; // weights beside closeness
 
 std::size_t idx(std::ptrdiff_t i) {
     return static_cast<std::size_t>(i);
