@@ -237,7 +237,9 @@ FitResult surface_fit(const Mesh& source, const Mesh& target_mesh, std::span<con
         if (k > 0) x = refine_positions(shells, k, x, weights.with_scale);
         if (k == 1 && going) x = eased(search, x);
     }
-    if (going) going = finish(search, shells.pins[0], part_of(progress, 0.95, 1), x, result);
+    const std::span<const Pin> held =
+        options.marker_weight > 0 ? std::span<const Pin>(shells.pins[0]) : std::span<const Pin>();
+    if (going) going = finish(search, held, part_of(progress, 0.95, 1), x, result);
     for (Eigen::Index i = 0; i < x.rows(); ++i) // vertices of no triangle go where the similarity takes them
         if (shells.shells[0].topology.vertex_triangles[i].empty()) x.row(i) = rest.row(i);
     measure_markers(x, source, markers, goals, result);

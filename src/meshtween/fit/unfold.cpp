@@ -16,7 +16,7 @@ constexpr int rounds = 8, rounds_without_pulls = 3;
 constexpr int smoothing = 10;        // rounds, of the normals by which a vertex tells the sheet it belongs to
 constexpr double least_cosine = 0.3; // between a vertex's look and the surface's, where it is asked for
 constexpr double near = 0.05;        // diagonals: the surface is looked for no further away
-constexpr double stay = 0.3, cover = 0.2, hold_marker = 10; // weights beside closeness
+constexpr double stay = 0.3, cover = 0.2, hold_marker = 100; // weights beside closeness
 
 std::size_t idx(std::ptrdiff_t i) {
     return static_cast<std::size_t>(i);
@@ -163,16 +163,16 @@ void add_pulls(const FoldedPatch& patch, std::span<const TargetSample> samples, 
     }
 }
 
-std::vector<FoldPull> held_markers(const Shell& shell, const Points& positions, const Piece& piece,
+std::vector<FoldPull> held_markers(const Shell& shell, Eigen::Index count, const Piece& piece,
                                    std::span<const Pin> pins) {
-    std::vector<int> number(idx(positions.rows()), -1);
+    std::vector<int> number(idx(count), -1);
     for (std::size_t i = 0; i < piece.vertices.size(); ++i) number[idx(piece.vertices[i])] = static_cast<int>(i);
     std::vector<FoldPull> held;
     for (const Pin& pin : pins) {
         const auto f = shell.triangles.row(pin.where.triangle);
         const std::array<int, 3> own{number[idx(f[0])], number[idx(f[1])], number[idx(f[2])]};
         if (std::any_of(own.begin(), own.end(), [](int i) { return i < 0; })) continue;
-        held.push_back({own, pin.where.barycentric, position(positions, shell.triangles, pin.where),
+        held.push_back({own, pin.where.barycentric, pin.target,
                         hold_marker / (piece.edge * piece.edge) / static_cast<double>(piece.energy.triangles.rows())});
     }
     return held;
@@ -234,7 +234,7 @@ Points unfolded(const Shell& shell, const Points& positions, const FoldedPatch& 
         energy.onto.push_back(share);
         energy.home.push_back(stay * remote * remote * share);
     }
-    const std::vector<FoldPull> markers = held_markers(shell, positions, piece, pins);
+    const std::vector<FoldPull> markers = held_markers(shell, positions.rows(), piece, pins);
     LbfgsOptions options;
     options.first_step = 0.2 * piece.edge;
     options.longest_step = 3 * piece.edge;

@@ -23,7 +23,7 @@ struct FoldedPatch {
     bool any_sheet = true;      // at first every vertex takes the nearest surface, whichever way it looks there
 };
 
-// Where the patch's vertices go, a row each; all others hold. Markers inside the patch keep their places.
+// Where the patch's vertices go, a row each; all others hold. Markers inside the patch are drawn to their targets.
 Points unfolded(const Shell& shell, const Points& positions, const FoldedPatch& patch, const FitTarget& target,
                 std::span<const TargetSample> samples, std::span<const Pin> pins);
 
