@@ -43,7 +43,6 @@ struct FitResult {
     std::vector<int> refused;    // surface: the vertices of those moves, ascending
     std::vector<int> mended; // surface: triangles that looked into the target on the way and no longer do, ascending
     int patches = 0; // surface: laid out anew, because triangles were turned over or cut each other (untangle.h)
-    std::vector<double> weights; // n, 0..1: how far to trust each vertex; 0 where nothing on the target answers to it
     std::vector<std::string> notes; // for people: what was unusual
 };
 

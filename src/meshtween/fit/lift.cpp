@@ -37,12 +37,8 @@ struct Gap {
 Gap gap(const Point& at, const Point& normal, double length, const FitTarget& target) {
     const ClosestPoint there = target.index.closest(at, {normal, least_cosine}, reach * length);
     if (!there.found() || on_border(target, there.where)) return {};
-    Gap result;
-    for (int k = 0; k < 3; ++k)
-        result.normal += there.where.barycentric[k] * target.normals.row(target.triangles(there.where.triangle, k));
-    result.normal.normalize();
-    result.height = result.normal.dot(there.position - at);
-    return result;
+    const Point facing = normal_at(target, there.where);
+    return {facing, facing.dot(there.position - at)};
 }
 
 // matrix moves = right for the moves of vertices along their normals; entries off the diagonal in the order of the

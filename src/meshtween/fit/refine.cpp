@@ -29,7 +29,6 @@ std::size_t idx(std::ptrdiff_t i) {
 struct Pull {
     Matrix3d block = Matrix3d::Zero();
     Point right{0, 0, 0};
-    double trust = 0;
 };
 
 Pull pull(const FitTarget& target, const ClosestPoint& closest, const Point& normal, bool own_border, double weight,
@@ -37,13 +36,9 @@ Pull pull(const FitTarget& target, const ClosestPoint& closest, const Point& nor
     Pull result;
     if (!closest.found()) return result;
     if (!own_border && on_border(target, closest.where)) return result;
-    Point n(0, 0, 0);
-    for (int k = 0; k < 3; ++k)
-        n += closest.where.barycentric[k] * target.normals.row(target.triangles(closest.where.triangle, k));
-    n.normalize();
-    result.trust = std::max(0.0, n.dot(normal));
-    result.block =
-        weight * result.trust * ((1 - weights.slide) * n.transpose() * n + weights.slide * Matrix3d::Identity());
+    const Point n = normal_at(target, closest.where);
+    result.block = weight * std::max(0.0, n.dot(normal)) *
+                   ((1 - weights.slide) * n.transpose() * n + weights.slide * Matrix3d::Identity());
     result.right = closest.position * result.block;
     return result;
 }
@@ -205,6 +200,12 @@ Points border_directions(const Points& positions, const Triangles& triangles, co
     return result;
 }
 
+Point normal_at(const FitTarget& target, const SurfacePoint& p) {
+    Point n(0, 0, 0);
+    for (int k = 0; k < 3; ++k) n += p.barycentric[k] * target.normals.row(target.triangles(p.triangle, k));
+    return n.normalized();
+}
+
 bool on_border(const FitTarget& target, const SurfacePoint& p) {
     constexpr double touching = 1e-9;
     int inside = 0, corner = 0;
@@ -218,11 +219,11 @@ bool on_border(const FitTarget& target, const SurfacePoint& p) {
     return false;
 }
 
-Relaxed relax(const ShellLevels& shells, std::size_t level, const Points& positions, const FitTarget& target,
-              const RelaxWeights& weights, RelaxMemory& memory) {
+Points relax(const ShellLevels& shells, std::size_t level, const Points& positions, const FitTarget& target,
+             const RelaxWeights& weights, RelaxMemory& memory) {
     const Shell& shell = shells.shells[level];
     const auto n = positions.rows();
-    Relaxed result{positions, std::vector<double>(idx(n), 0.0), 0};
+    Points result = positions;
     const auto frames =
         calmed(local_frames(shell, positions, weights.smoothing, weights.with_scale), weights.calm_turn);
     std::vector<BlockSystem> systems{level_system(shells, level, weights)};
@@ -244,7 +245,6 @@ Relaxed relax(const ShellLevels& shells, std::size_t level, const Points& positi
                                     weights.closeness * shell.area[idx(i)], weights);
                 systems[0].blocks[idx(i)] = p.block;
                 right.row(i) += p.right;
-                result.trust[idx(i)] = p.trust;
             },
             256);
         add_back_pulls(shell, positions, target, weights.back * weights.closeness, weights.reach, memory,
@@ -259,7 +259,7 @@ Relaxed relax(const ShellLevels& shells, std::size_t level, const Points& positi
         }
         solver = std::make_unique<Multigrid>(std::move(systems), shells.up, level);
     }
-    result.iterations = solver->solve(right, result.positions, weights.cycles, 1e-3);
+    solver->solve(right, result, weights.cycles, 1e-3);
     if (weights.closeness <= 0) memory.pose = std::move(solver);
     return result;
 }

@@ -34,6 +34,9 @@ Points border_directions(const Points& positions, const Triangles& triangles, co
 // mesh's border's, unit. Not found elsewhere.
 ClosestPoint closest_on_border(const FitTarget& target, const Point& point, const Point& direction);
 
+// The target's unit normal there, between those of the triangle's vertices.
+Point normal_at(const FitTarget& target, const SurfacePoint& point);
+
 // True where a point lies on the target's border: what has its closest point there may have no counterpart.
 bool on_border(const FitTarget& target, const SurfacePoint& point);
 
@@ -70,12 +73,6 @@ struct RelaxWeights {
     int cycles = 10;        // of the solver, in time at most
 };
 
-struct Relaxed {
-    Points positions;
-    std::vector<double> trust; // n: how well each vertex's closest point was compatible, 0..1
-    int iterations = 0;
-};
-
 // What one round on a level leaves for the next one there, with the same weights but for their
 // lengths where there is closeness; empty before the first. It changes no result.
 struct RelaxMemory {
@@ -86,8 +83,8 @@ struct RelaxMemory {
 };
 
 // Rounds of the same kind on one level, each finding closest points and solving for the shell once.
-Relaxed relax(const ShellLevels& shells, std::size_t level, const Points& positions, const FitTarget& target,
-              const RelaxWeights& weights, RelaxMemory& memory);
+Points relax(const ShellLevels& shells, std::size_t level, const Points& positions, const FitTarget& target,
+             const RelaxWeights& weights, RelaxMemory& memory);
 
 // Positions on the next finer level: each vertex goes with the frames of the places it lies on.
 Points refine_positions(const ShellLevels& shells, std::size_t level, const Points& positions, bool with_scale);

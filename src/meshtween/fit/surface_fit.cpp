@@ -139,7 +139,7 @@ Points articulate(const ShellLevels& shells, const FitTarget& target) {
     weights.with_scale = false;
     RelaxMemory memory;
     for (int round = 0; round < articulation_rounds; ++round) {
-        Points next = relax(shells, coarsest, x, target, weights, memory).positions;
+        Points next = relax(shells, coarsest, x, target, weights, memory);
         const double moved = (next - x).rowwise().norm().maxCoeff();
         x = std::move(next);
         if (moved < articulation_still) break;
@@ -226,9 +226,8 @@ FitResult surface_fit(const Mesh& source, const Mesh& target_mesh, std::span<con
         for (int round = 0; round < rounds_a_level; ++round, weights.length *= rate, weights.slide *= slide_rate) {
             going = going && keep_going(progress, 0.15 + 0.8 * done / work, "fitting");
             if (!going) break;
-            Relaxed relaxed = relax(shells, k, x, target, weights, memory);
-            x = k == 0 ? held_back(search, x, relaxed.positions) : std::move(relaxed.positions);
-            result.weights = std::move(relaxed.trust);
+            Points relaxed = relax(shells, k, x, target, weights, memory);
+            x = k == 0 ? held_back(search, x, relaxed) : std::move(relaxed);
             done += static_cast<double>(x.rows());
             ++result.rounds;
             if (options.watch) options.watch(frame.out(on_finest(shells, k, x)));
@@ -245,7 +244,6 @@ FitResult surface_fit(const Mesh& source, const Mesh& target_mesh, std::span<con
     measure_markers(x, source, markers, goals, result);
     leave_grid(x, target, in_frame);
     result.positions = frame.out(x);
-    result.weights.resize(static_cast<std::size_t>(x.rows()), 0.0);
     result.end = going ? FitEnd::converged : FitEnd::cancelled;
     keep_going(progress, 1, "done");
     return result;
