@@ -92,9 +92,8 @@ const std::vector<Row<FitOptions>>& fit_rows() {
          [](FitOptions& o, double v) { o.markers_exact = v == 1; }},
         {"vertices",
          "Vertices",
-         "lifted: off the target by so much that the triangles between them lie on it in the mean, twice as close on "
-         "the "
-         "whole. on it: each one exactly.",
+         "lifted: off the target by so much that the triangles between them lie on it in the mean. on it: each one "
+         "exactly.",
          0,
          0,
          {"lifted", "on it"},

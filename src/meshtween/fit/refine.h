@@ -73,8 +73,8 @@ struct RelaxWeights {
     int cycles = 10;        // of the solver, in time at most
 };
 
-// What one round on a level leaves for the next one there, with the same weights but for their
-// lengths where there is closeness; empty before the first. It changes no result.
+// What one round on a level leaves for the next one there; empty before the first. It changes no result. Without
+// closeness all rounds must have the same weights.
 struct RelaxMemory {
     std::vector<int> places;                      // a vertex: the target's triangle of the last answer
     std::vector<int> back_places;                 // a place of the target: the mesh's triangle
