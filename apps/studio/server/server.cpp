@@ -68,6 +68,7 @@ Server::Server(Session& session, Events& events, int port, std::size_t most_uplo
     http_->set_address_family(AF_INET);
     http_->set_tcp_nodelay(true);
     http_->set_keep_alive_max_count(1000);
+    http_->set_keep_alive_timeout(1); // seconds: stopping waits for connections that idle
     http_->set_read_timeout(30);
     http_->set_payload_max_length(most_upload);
     http_->set_default_headers(safe_headers());

@@ -1,4 +1,4 @@
-// The document's markers, and suggestions, as pins in the views.
+// The document's markers, and suggestions, as pins in the views, and the plane of symmetry.
 import { app } from './app'
 import { isComplete } from './edits'
 import { ghosts } from './placing'
@@ -16,7 +16,7 @@ let shownFor: unknown[] = []
 export function showPins() {
   const { document } = app.store
   // Only where something has changed: this runs with every drawing of the page.
-  const now = [document.markers, app.selected, ghosts.list, app.state, app.models.source, app.models.target, app.step]
+  const now = [document.markers, document.symmetry, app.selected, ghosts.list, app.state, app.models.source, app.models.target, app.step]
   if (now.every((value, i) => value === shownFor[i])) return
   shownFor = now
   for (const side of sides) {
@@ -34,6 +34,7 @@ export function showPins() {
       if (one.side === side && frame)
         pins.push({ id: 'ghost', number: 0, at: app.toDrawn(one.at, frame), color: ghost, size: 13, ghost: true })
     app.pane(side).pins.show(pins)
+    app.pane(side).glass.show(document.symmetry.on && app.step === 'markers' ? document.symmetry.axis : null, document.symmetry[side])
   }
   app.stage.draw()
 }

@@ -21,17 +21,24 @@ export interface Nodes {
   normals: Int16Array[]
 }
 
+// An inner edge runs both ways: the way from its smaller vertex is drawn. Where some run one way only, the mesh has a
+// border, and every way is drawn.
 const edgesOf = (triangles: Uint32Array): Uint32Array => {
-  // An inner edge runs both ways: the way from its smaller vertex is drawn. Boundary edges that run the other way only
-  // are few and drawn by their neighbours' ends.
   const edges = new Uint32Array(triangles.length * 2)
   let count = 0
-  for (let t = 0; t < triangles.length; t += 3)
-    for (let k = 0; k < 3; ++k) {
-      const a = triangles[t + k]
-      const b = triangles[t + ((k + 1) % 3)]
-      if (a < b) (edges[count++] = a), (edges[count++] = b)
-    }
+  let balance = 0
+  const each = (wanted: (a: number, b: number) => boolean) => {
+    count = 0
+    for (let t = 0; t < triangles.length; t += 3)
+      for (let k = 0; k < 3; ++k) {
+        const a = triangles[t + k]
+        const b = triangles[t + ((k + 1) % 3)]
+        balance += a < b ? 7 * a + b : -7 * b - a
+        if (wanted(a, b)) (edges[count++] = a), (edges[count++] = b)
+      }
+  }
+  each((a, b) => a < b)
+  if (balance !== 0) each(() => true)
   return edges.slice(0, count)
 }
 

@@ -1,6 +1,7 @@
 // One view: a scene, its camera, its markers, and the pointer and keys on it.
 import { PerspectiveCamera, Raycaster, Scene, Vector2, Vector3 } from 'three'
 import { apply, copyPose, orbit, pan, startPose, zoom, type Pose } from './camera'
+import { Glass } from './glass'
 import type { Model } from './model'
 import { Pins } from './pins'
 
@@ -25,6 +26,7 @@ export class Pane {
   readonly scene = new Scene()
   readonly camera = new PerspectiveCamera()
   readonly pins = new Pins()
+  readonly glass = new Glass()
   pose: Pose = startPose()
   model: Model | null = null
   element: HTMLElement | null = null
@@ -33,7 +35,7 @@ export class Pane {
   private abort: AbortController | null = null
 
   constructor(private events: PaneEvents) {
-    this.scene.add(this.pins.mesh)
+    this.scene.add(this.pins.mesh, this.glass.group)
   }
 
   setModel(model: Model | null) {

@@ -134,7 +134,8 @@ export function Views() {
     return () => app.stage.attach(null)
   }, [])
   showPins()
-  const visible = (['source', 'target', 'result', 'compare'] as PaneName[]).filter((name) => app.shown.has(name))
+  const compares = app.step === 'morph' || app.step === 'export'
+  const visible = (['source', 'target', 'result', 'compare'] as PaneName[]).filter((name) => app.shown.has(name) && (name !== 'compare' || compares))
   useEffect(() => app.stage.draw(), [visible.join()])
   return (
     <main>
