@@ -13,19 +13,47 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <queue>
 
 namespace meshtween {
 namespace {
 
-using Quadric = Eigen::Matrix4d;
-
 constexpr double length_share = 0.01; // of squared edge length times area, beside the quadric error: see the header
 constexpr double least_turn = 0.2;    // cosine between a triangle's normals before and after a collapse
 
+std::size_t idx(std::ptrdiff_t i) {
+    return static_cast<std::size_t>(i);
+}
+
+// Weighted squared distances from planes, summed: x A x + 2 b x + c.
+struct Quadric {
+    double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+    Point b{0, 0, 0};
+    double c = 0;
+
+    void add_plane(const Point& n, const Point& through, double weight) {
+        const Point w = weight * n;
+        const double d = -n.dot(through);
+        xx += w[0] * n[0], xy += w[0] * n[1], xz += w[0] * n[2];
+        yy += w[1] * n[1], yz += w[1] * n[2], zz += w[2] * n[2];
+        b += d * w;
+        c += weight * d * d;
+    }
+    void add(const Quadric& other) {
+        xx += other.xx, xy += other.xy, xz += other.xz, yy += other.yy, yz += other.yz, zz += other.zz;
+        b += other.b;
+        c += other.c;
+    }
+    double at(const Point& p) const {
+        return p[0] * (xx * p[0] + 2 * (xy * p[1] + xz * p[2] + b[0])) + p[1] * (yy * p[1] + 2 * (yz * p[2] + b[1])) +
+               p[2] * (zz * p[2] + 2 * b[2]) + c;
+    }
+};
+
 struct Candidate {
     double cost;
-    int vertex, to, stamp;
+    int vertex, to;
     bool operator<(const Candidate& other) const { // the cheapest on top; ties by index, the same on every machine
         return cost != other.cost ? cost > other.cost : vertex > other.vertex;
     }
@@ -34,24 +62,34 @@ struct Candidate {
 class Decimation {
 public:
     Decimation(const Points& positions, const Triangles& triangles)
-        : positions_(positions), triangles_(triangles), around_(static_cast<std::size_t>(positions.rows())),
-          boundary_(around_.size(), 0), parent_(around_.size(), -1), stamp_(around_.size(), 0),
-          area_(around_.size(), 0.0), quadrics_(around_.size(), Quadric::Zero()), alive_(positions.rows()) {
-        const Topology topology = meshtween::topology(positions.rows(), triangles);
-        for (std::size_t v = 0; v < around_.size(); ++v) {
-            const auto list = topology.vertex_triangles[static_cast<std::ptrdiff_t>(v)];
-            around_[v].assign(list.begin(), list.end());
+        : positions_(positions), triangles_(triangles), first_(idx(positions.rows()), -1),
+          next_(idx(triangles.size()), -1), boundary_(first_.size(), 0), waiting_(first_.size(), Waiting::no),
+          parent_(first_.size(), -1), mark_(first_.size(), 0), area_(first_.size(), 0.0), quadrics_(first_.size()),
+          alive_(positions.rows()) {
+        for (auto c = std::ssize(next_); c-- > 0;) {
+            int& first = first_[idx(triangles.data()[c])];
+            next_[idx(c)] = first;
+            first = static_cast<int>(c);
         }
-        for (Eigen::Index t = 0; t < triangles.rows(); ++t) add_plane(static_cast<int>(t));
+        const Topology topology = meshtween::topology(positions.rows(), triangles);
+        parallel_for(positions.rows(), [&](std::ptrdiff_t v) {
+            for (const int t : topology.vertex_triangles[v]) add_plane(idx(v), t);
+        });
         for (const Edge& edge : topology.edges)
             if (edge.count != 2) add_border(edge);
-        for (std::size_t v = 0; v < around_.size(); ++v) push(static_cast<int>(v), false);
+        std::vector<Candidate> candidates(first_.size());
+        parallel_for(positions.rows(), [&](std::ptrdiff_t v) {
+            candidates[idx(v)] = cheapest(static_cast<int>(v), topology.neighbours[v], [](int) { return true; });
+        });
+        std::erase_if(candidates, [](const Candidate& c) { return c.to < 0; });
+        for (const Candidate& c : candidates) waiting_[idx(c.vertex)] = Waiting::yes;
+        heap_ = std::priority_queue<Candidate>({}, std::move(candidates));
     }
 
     Eigen::Index alive() const { return alive_; }
-    bool alive(int v) const { return parent_[static_cast<std::size_t>(v)] < 0; }
+    bool alive(int v) const { return parent_[idx(v)] < 0; }
     int root(int v) const {
-        while (parent_[static_cast<std::size_t>(v)] >= 0) v = parent_[static_cast<std::size_t>(v)];
+        while (parent_[idx(v)] >= 0) v = parent_[idx(v)];
         return v;
     }
     bool triangle_alive(Eigen::Index t) const { return triangles_(t, 0) >= 0; }
@@ -61,134 +99,166 @@ public:
         while (alive_ > count && !heap_.empty()) {
             const Candidate best = heap_.top();
             heap_.pop();
-            if (!alive(best.vertex) || best.stamp != stamp_[static_cast<std::size_t>(best.vertex)]) continue;
-            if (allowed(best.vertex, best.to))
+            Waiting& waiting = waiting_[idx(best.vertex)];
+            const bool current = waiting == Waiting::yes && alive(best.to);
+            waiting = Waiting::no;
+            if (!alive(best.vertex)) continue;
+            if (!current)
+                push(best.vertex, [](int) { return true; });
+            else if (allowed(best.vertex, best.to))
                 collapse(best.vertex, best.to);
             else
-                push(best.vertex, true);
+                push(best.vertex, [&](int to) { return allowed(best.vertex, to); });
         }
     }
 
 private:
-    void add_plane(int t) {
+    // In the heap. Costs change with every collapse near by and mostly grow: they are computed anew when their turn
+    // comes.
+    enum class Waiting : char { no, yes, out_of_date };
+
+    void add_plane(std::size_t v, int t) {
         const Point twice = double_area_normal(positions_, triangles_, t);
         const double length = twice.norm();
         if (length <= 0) return;
-        Eigen::Vector4d plane;
-        plane.head<3>() = twice.transpose() / length;
-        plane[3] = -plane.head<3>().dot(positions_.row(triangles_(t, 0)));
-        for (int k = 0; k < 3; ++k) {
-            const auto v = static_cast<std::size_t>(triangles_(t, k));
-            quadrics_[v] += length / 6 * plane * plane.transpose();
-            area_[v] += length / 6;
-        }
+        quadrics_[v].add_plane(twice / length, positions_.row(triangles_(t, 0)), length / 6);
+        area_[v] += length / 6;
     }
 
     // A plane through the border edge, at right angles to its triangle, so that borders keep their line.
     void add_border(const Edge& edge) {
         const auto [a, b] = edge.vertices;
-        boundary_[static_cast<std::size_t>(a)] = boundary_[static_cast<std::size_t>(b)] = 1;
+        boundary_[idx(a)] = boundary_[idx(b)] = 1;
         const Point along = positions_.row(b) - positions_.row(a);
         const Point across = along.cross(double_area_normal(positions_, triangles_, edge.triangles[0]));
         if (across.norm() <= 0) return;
-        Eigen::Vector4d plane;
-        plane.head<3>() = across.normalized().transpose();
-        plane[3] = -plane.head<3>().dot(positions_.row(a));
         for (const int v : {a, b})
-            quadrics_[static_cast<std::size_t>(v)] += along.squaredNorm() * plane * plane.transpose();
+            quadrics_[idx(v)].add_plane(across.normalized(), positions_.row(a), along.squaredNorm());
     }
 
-    void find_neighbours(int v, std::vector<int>& list) const {
+    // Calls visit(triangle) for the triangles that are left around v.
+    template <typename Visit>
+    void each_triangle(int v, const Visit& visit) {
+        for (int* c = &first_[idx(v)]; *c >= 0;) {
+            if (triangle_alive(*c / 3)) {
+                visit(*c / 3);
+                c = &next_[idx(*c)];
+            } else {
+                *c = next_[idx(*c)];
+            }
+        }
+    }
+
+    // Each once. Also says how many of them have the mark `of`.
+    int find_neighbours(int v, std::vector<int>& list, int of = 0) {
         list.clear();
-        for (const int t : around_[static_cast<std::size_t>(v)])
-            for (int k = 0; k < 3; ++k)
-                if (triangles_(t, k) != v) list.push_back(triangles_(t, k));
-        std::sort(list.begin(), list.end());
-        list.erase(std::unique(list.begin(), list.end()), list.end());
+        int both = 0;
+        const int own = ++last_mark_;
+        each_triangle(v, [&](int t) {
+            for (int k = 0; k < 3; ++k) {
+                const int w = triangles_(t, k);
+                int& mark = mark_[idx(w)];
+                if (w == v || mark == own) continue;
+                both += of > 0 && mark == of;
+                mark = own;
+                list.push_back(w);
+            }
+        });
+        return both;
     }
 
     double cost(int v, int to) const {
-        const auto i = static_cast<std::size_t>(v);
-        Eigen::Vector4d x;
-        x << positions_.row(to).transpose(), 1;
-        return x.dot((quadrics_[i] + quadrics_[static_cast<std::size_t>(to)]) * x) +
-               length_share * area_[i] * (positions_.row(v) - positions_.row(to)).squaredNorm();
+        const Point at = positions_.row(to);
+        return quadrics_[idx(v)].at(at) + quadrics_[idx(to)].at(at) +
+               length_share * area_[idx(v)] * (positions_.row(v) - at).squaredNorm();
     }
 
-    void push(int v, bool only_allowed) {
-        Candidate best{std::numeric_limits<double>::infinity(), v, -1, ++stamp_[static_cast<std::size_t>(v)]};
-        find_neighbours(v, around_pushed_);
-        for (const int to : around_pushed_) {
+    template <typename List, typename Accept>
+    Candidate cheapest(int v, const List& neighbours, const Accept& accept) const {
+        Candidate best{std::numeric_limits<double>::infinity(), v, -1};
+        for (const int to : neighbours) {
             const double c = cost(v, to);
-            if (c < best.cost && (!only_allowed || allowed(v, to))) best.cost = c, best.to = to;
+            const bool better = c < best.cost || (c == best.cost && to < best.to);
+            if (better && accept(to)) best.cost = c, best.to = to;
         }
-        if (best.to >= 0) heap_.push(best);
+        return best;
+    }
+
+    template <typename Accept>
+    void push(int v, const Accept& accept) {
+        find_neighbours(v, pushed_);
+        const Candidate best = cheapest(v, pushed_, accept);
+        if (best.to < 0) return;
+        waiting_[idx(v)] = Waiting::yes;
+        heap_.push(best);
+    }
+
+    void neighbourhood_changed(int v) {
+        Waiting& waiting = waiting_[idx(v)];
+        if (waiting == Waiting::no)
+            push(v, [](int) { return true; });
+        else
+            waiting = Waiting::out_of_date;
     }
 
     bool allowed(int v, int to) {
-        const auto i = static_cast<std::size_t>(v);
-        std::vector<int>&shared = shared_, &of_v = of_v_, &of_to = of_to_;
-        find_neighbours(v, of_v);
-        find_neighbours(to, of_to);
-        shared.clear();
-        std::set_intersection(of_v.begin(), of_v.end(), of_to.begin(), of_to.end(), std::back_inserter(shared));
-        std::size_t opposite = 0;
-        for (const int t : around_[i]) opposite += has(t, to);
-        if (shared.size() != opposite || of_v.size() + of_to.size() - shared.size() < 5) return false;
-        if (boundary_[i] && (opposite != 1 || !boundary_[static_cast<std::size_t>(to)])) return false;
-        for (const int t : around_[i]) {
-            if (has(t, to)) continue;
-            std::array<Point, 3> after;
-            for (int k = 0; k < 3; ++k) {
-                const int corner = triangles_(t, k) == v ? to : triangles_(t, k);
-                after[static_cast<std::size_t>(k)] = positions_.row(corner);
-            }
-            const Point n = (after[1] - after[0]).cross(after[2] - after[0]);
-            const Point before = double_area_normal(positions_, triangles_, t);
-            if (n.dot(before) <= least_turn * n.norm() * before.norm()) return false;
-        }
-        return true;
+        find_neighbours(v, of_v_);
+        const int shared = find_neighbours(to, of_to_, last_mark_);
+        int opposite = 0;
+        bool turned = false;
+        each_triangle(v, [&](int t) {
+            if (has(t, to))
+                ++opposite;
+            else
+                turned = turned || turns(t, v, to);
+        });
+        if (turned || shared != opposite || std::ssize(of_v_) + std::ssize(of_to_) - shared < 5) return false;
+        return !boundary_[idx(v)] || (opposite == 1 && boundary_[idx(to)]);
+    }
+
+    // The triangle would look another way with v at the place of `to`.
+    bool turns(int t, int v, int to) const {
+        std::array<Point, 3> after;
+        for (int k = 0; k < 3; ++k) after[idx(k)] = positions_.row(triangles_(t, k) == v ? to : triangles_(t, k));
+        const Point n = (after[1] - after[0]).cross(after[2] - after[0]);
+        const Point before = double_area_normal(positions_, triangles_, t);
+        return n.dot(before) <= least_turn * n.norm() * before.norm();
     }
 
     bool has(int t, int v) const { return triangles_(t, 0) == v || triangles_(t, 1) == v || triangles_(t, 2) == v; }
 
     void collapse(int v, int to) {
-        const auto i = static_cast<std::size_t>(v), j = static_cast<std::size_t>(to);
-        for (const int t : around_[i]) {
-            if (has(t, to)) {
-                for (int k = 0; k < 3; ++k) {
-                    if (triangles_(t, k) == v) continue;
-                    auto& list = around_[static_cast<std::size_t>(triangles_(t, k))];
-                    list.erase(std::find(list.begin(), list.end(), t));
-                }
+        each_triangle(v, [&](int t) {
+            if (has(t, to))
                 triangles_(t, 0) = -1;
-            } else {
+            else
                 for (int k = 0; k < 3; ++k)
                     if (triangles_(t, k) == v) triangles_(t, k) = to;
-                around_[j].push_back(t);
-            }
-        }
-        around_[i].clear();
-        parent_[i] = to;
-        quadrics_[j] += quadrics_[i];
-        area_[j] += area_[i];
+        });
+        int* last = &first_[idx(to)];
+        while (*last >= 0) last = &next_[idx(*last)];
+        *last = first_[idx(v)];
+        parent_[idx(v)] = to;
+        quadrics_[idx(to)].add(quadrics_[idx(v)]);
+        area_[idx(to)] += area_[idx(v)];
         --alive_;
-        push(to, false);
-        std::vector<int>& around = around_kept_;
-        find_neighbours(to, around);
-        for (const int w : around) push(w, false);
+        find_neighbours(to, around_);
+        neighbourhood_changed(to);
+        for (const int w : around_) neighbourhood_changed(w);
     }
 
     const Points& positions_;
-    Triangles triangles_;
-    std::vector<std::vector<int>> around_;
+    Triangles triangles_;           // -1 first where one is gone
+    std::vector<int> first_, next_; // the corners at each vertex, 3 t + k, as a chain
     std::vector<char> boundary_;
-    std::vector<int> parent_, stamp_;
+    std::vector<Waiting> waiting_;
+    std::vector<int> parent_, mark_;
+    int last_mark_ = 0;
     std::vector<double> area_;
-    std::vector<Quadric, Eigen::aligned_allocator<Quadric>> quadrics_;
+    std::vector<Quadric> quadrics_;
     Eigen::Index alive_;
     std::priority_queue<Candidate> heap_;
-    std::vector<int> around_pushed_, around_kept_, of_v_, of_to_, shared_; // scratch, made once
+    std::vector<int> pushed_, around_, of_v_, of_to_; // scratch, made once
 };
 
 // The level that is left of a decimation; `index` gets the new number of each vertex of the mesh, -1 for the gone.
@@ -222,16 +292,16 @@ Level remaining(const Decimation& decimation, const Points& positions, const std
 SurfacePoint local_place(const Level& level, const Topology& topology, int start, const Point& query) {
     SurfacePoint best{0, {1, 0, 0}}; // kept by a vertex of no triangle
     double least = std::numeric_limits<double>::infinity();
-    const auto look = [&](int vertex) {
-        for (const int t : topology.vertex_triangles[vertex]) {
-            const auto corners = level.triangles.row(t);
-            const auto p = place_on_triangle(query, level.positions.row(corners[0]), level.positions.row(corners[1]),
-                                             level.positions.row(corners[2]));
-            if (p.squared_distance < least) least = p.squared_distance, best = {t, {1 - p.v - p.w, p.v, p.w}};
-        }
+    const auto look = [&](int t) {
+        const auto corners = level.triangles.row(t);
+        const auto p = place_on_triangle(query, level.positions.row(corners[0]), level.positions.row(corners[1]),
+                                         level.positions.row(corners[2]));
+        if (p.squared_distance < least) least = p.squared_distance, best = {t, {1 - p.v - p.w, p.v, p.w}};
     };
-    look(start);
-    for (const int w : topology.neighbours[start]) look(w);
+    for (const int t : topology.vertex_triangles[start]) look(t);
+    for (const int w : topology.neighbours[start])
+        for (const int t : topology.vertex_triangles[w])
+            if ((level.triangles.row(t).array() != start).all()) look(t);
     return best;
 }
 

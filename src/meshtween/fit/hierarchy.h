@@ -20,9 +20,9 @@ struct HierarchyOptions {
     double factor = 4;  // vertices of a level over those of the next coarser one
 };
 
-// Finest first; level 0 is the mesh itself. Edges collapse onto one of their ends in the order of quadric error plus
-// a share of their length, which keeps thin parts such as fingers; boundaries stay on themselves. Places are looked
-// for among the neighbours that a vertex collapsed into, never across a gap in space. O(n log n). Works on any
+// Finest first; level 0 is the mesh itself. Edges collapse onto one of their ends about in the order of quadric error
+// plus a share of their length, which keeps thin parts such as fingers; boundaries stay on themselves. Places are
+// looked for among the neighbours that a vertex collapsed into, never across a gap in space. O(n log n). Works on any
 // triangles; what cannot be thinned (many tiny components) is left as it is.
 std::vector<Level> hierarchy(const Points& positions, const Triangles& triangles, const HierarchyOptions& options = {});
 

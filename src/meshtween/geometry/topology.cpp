@@ -1,8 +1,11 @@
 #include "meshtween/geometry/topology.h"
 
+#include "meshtween/core/parallel.h"
+
 #include <algorithm>
-#include <cstdint>
 #include <map>
+#include <numeric>
+#include <utility>
 
 namespace meshtween {
 namespace {
@@ -26,33 +29,39 @@ Lists gather(std::ptrdiff_t owners, const ForEachPair& for_each_pair) {
 
 Topology topology(Eigen::Index vertex_count, const Triangles& triangles) {
     Topology result;
-    struct Half {
-        std::uint64_t vertices; // the smaller index above the other: sorted by one comparison
-        int triangle;
-    };
-    std::vector<Half> halves;
-    halves.reserve(static_cast<std::size_t>(triangles.rows()) * 3);
-    for (Eigen::Index t = 0; t < triangles.rows(); ++t)
-        for (int k = 0; k < 3; ++k) {
-            const int a = triangles(t, k), b = triangles(t, (k + 1) % 3);
-            if (a != b)
-                halves.push_back(
-                    {static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint64_t>(std::max(a, b)),
-                     static_cast<int>(t)});
-        }
-    std::sort(halves.begin(), halves.end(), [](const Half& x, const Half& y) {
-        return x.vertices != y.vertices ? x.vertices < y.vertices : x.triangle < y.triangle;
+    // Half-edges (3 t + k) by the smaller of their vertices, then by the larger: those of one edge are together.
+    Lists halves = gather(vertex_count, [&](const auto& put) {
+        for (Eigen::Index t = 0; t < triangles.rows(); ++t)
+            for (int k = 0; k < 3; ++k) {
+                const int a = triangles(t, k), b = triangles(t, (k + 1) % 3);
+                if (a != b) put(std::min(a, b), static_cast<int>(3 * t + k));
+            }
     });
-    result.edges.reserve(halves.size() / 2 + 16);
-    for (std::size_t h = 0; h < halves.size(); ++h) {
-        const Half& half = halves[h];
-        if (h == 0 || half.vertices != halves[h - 1].vertices)
-            result.edges.push_back(
-                {{static_cast<int>(half.vertices >> 32), static_cast<int>(half.vertices & 0xffffffff)}, {-1, -1}, 0});
-        Edge& edge = result.edges.back();
-        if (edge.count < 2) edge.triangles[static_cast<std::size_t>(edge.count)] = half.triangle;
-        ++edge.count;
-    }
+    const auto larger = [&](int half) {
+        return std::max(triangles(half / 3, half % 3), triangles(half / 3, (half + 1) % 3));
+    };
+    std::vector<int> first_edge(static_cast<std::size_t>(vertex_count) + 1, 0);
+    parallel_for(vertex_count, [&](Eigen::Index v) {
+        const auto begin = halves.items.begin() + halves.first[static_cast<std::size_t>(v)],
+                   end = halves.items.begin() + halves.first[static_cast<std::size_t>(v) + 1];
+        std::sort(begin, end, [&](int x, int y) { return std::pair(larger(x), x) < std::pair(larger(y), y); });
+        for (auto h = begin; h != end; ++h)
+            first_edge[static_cast<std::size_t>(v) + 1] += h == begin || larger(*h) != larger(*(h - 1));
+    });
+    std::partial_sum(first_edge.begin(), first_edge.end(), first_edge.begin());
+    result.edges.resize(static_cast<std::size_t>(first_edge.back()));
+    parallel_for(vertex_count, [&](Eigen::Index v) {
+        int last = -1;
+        auto edge = result.edges.begin() + first_edge[static_cast<std::size_t>(v)] - 1;
+        for (const int half : halves[v]) {
+            if (larger(half) != last) {
+                last = larger(half);
+                (++edge)->vertices = {static_cast<int>(v), last};
+            }
+            if (edge->count < 2) edge->triangles[static_cast<std::size_t>(edge->count)] = half / 3;
+            ++edge->count;
+        }
+    });
     result.neighbours = gather(vertex_count, [&](const auto& put) {
         for (const Edge& edge : result.edges) put(edge.vertices[1], edge.vertices[0]);
         for (const Edge& edge : result.edges) put(edge.vertices[0], edge.vertices[1]);
