@@ -2,12 +2,13 @@
 // bending falls as the fourth power of a length, from a fifth of the target to less than a thousandth; in the limit the
 // shell lies on the surface and its bending alone says where along it each vertex goes.
 //
-// The stages and their papers are in align, shell, refine, settle and untangle.
+// The stages and their papers are in align, shell, refine, settle, untangle and crease.
 #include "meshtween/fit/surface_fit.h"
 
 #include "meshtween/core/error.h"
 #include "meshtween/core/parallel.h"
 #include "meshtween/fit/align.h"
+#include "meshtween/fit/crease.h"
 #include "meshtween/fit/refine.h"
 #include "meshtween/fit/settle.h"
 #include "meshtween/fit/untangle.h"
@@ -153,13 +154,13 @@ Points on_finest(const ShellLevels& shells, std::size_t level, Points x) {
     return x;
 }
 
-// Onto the surface, then what is turned over or cut is mended. False where the progress said to stop.
+// Onto the surface, what is turned over or cut mended, vertices onto creases. False where the progress said to stop.
 bool finish(TangleSearch& search, std::span<const Pin> pins, const Progress& progress, Points& x, FitResult& result) {
     Settled settled = settle(search.shell, x, search.target);
     result.refused_steps = std::ssize(settled.refused);
     result.refused = std::move(settled.refused);
     Untangled untangled = untangle(search, settled.positions, pins, progress);
-    x = std::move(untangled.positions);
+    x = creased(search, untangled.positions, untangled.left);
     result.patches = untangled.patches;
     const std::vector<std::array<int, 2>>& cuts = untangled.left.cuts;
     const std::vector<int>& left = untangled.left.flips;
