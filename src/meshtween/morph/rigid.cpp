@@ -6,12 +6,14 @@
 //   Baran et al. 2009 and Lipman et al. 2005 (rotations relative to neighbours; turns.cpp)
 // With R the rotation of a triangle and a, b an edge in both shapes, the edge at u is R(u) ((1 - u) a + u R^T b): its
 // stretch is blended linearly. The same shapes come from either end, and they are exact at both.
+// Where neighbours turn far against each other, the angle across their edge says which way round (hinges.cpp).
 // Where that strains edges much, as in a thick twisted bar, whose turns and stretches do not fit together on the way,
 // a middle shape is sought whose lengths do (blended_lengths.cpp), and turns and edges go through it on parabolas.
 #include "meshtween/core/parallel.h"
 #include "meshtween/geometry/measure.h"
 #include "meshtween/geometry/topology.h"
 #include "meshtween/morph/blended_lengths.h"
+#include "meshtween/morph/hinges.h"
 #include "meshtween/morph/methods.h"
 #include "meshtween/morph/rigid_motion.h"
 #include "meshtween/morph/turns.h"
@@ -48,6 +50,7 @@ struct Prepared {
     Triangles triangles;
     RigidMotion motion;
     Turns turns;
+    Hinges hinges;
     std::vector<int> patch_of_triangle;
     Points back_01, back_12; // m x 3: edges of `to`, turned back by the triangle's rotation
     Points bow_01,
@@ -103,9 +106,9 @@ std::vector<Hook> hooks(const Patches& patches, const std::vector<Attachment>& a
 }
 
 // A triangle's edges at u from corner k to k + 1, stretched but not turned yet.
-std::array<Eigen::Vector3d, 3> local_edges(const Prepared& s, int t, double u) {
+TriangleEdges local_edges(const Prepared& s, int t, double u) {
     const auto p = [&](int k) { return s.from.row(s.triangles(t, k)); };
-    std::array<Eigen::Vector3d, 3> edge;
+    TriangleEdges edge;
     edge[0] = ((1 - u) * (p(1) - p(0)) + u * s.back_01.row(t)).transpose();
     edge[1] = ((1 - u) * (p(2) - p(1)) + u * s.back_12.row(t)).transpose();
     if (s.bow_01.rows() > 0) {
@@ -204,9 +207,14 @@ Times own_times(const Prepared& s, const Eigen::VectorXd& own, double whole) {
     return times;
 }
 
+Quaternions triangle_rotations(const Prepared& s, const Quaternions& patches, const Eigen::VectorXd& u) {
+    const auto edges = [&](int t) { return local_edges(s, t, u[t]); };
+    return turned_on_hinges(s.hinges, edges, u, face_rotations(s.turns, patches, u));
+}
+
 Points shape_at(const Prepared& s, const Times& times) {
     const Quaternions patches = patch_rotations(s.turns, times.patches);
-    const Points right = divergence(s, face_rotations(s.turns, patches, times.triangles), times.triangles);
+    const Points right = divergence(s, triangle_rotations(s, patches, times.triangles), times.triangles);
     return placed(s.motion, put_together(s, s.poisson.solve(right), patches, times), times.whole);
 }
 
@@ -223,6 +231,19 @@ void turn_back(const Quaternions& rotation, const Points& shape, const Triangles
     });
 }
 
+// Where patches are entangled, the angles across edges say which way round they and their triangles turn.
+void follow_hinges(Prepared& s, const Topology& top, const FaceField& faces, const Patches& parts) {
+    const std::vector<char> flags = entangled(faces, parts);
+    if (std::none_of(flags.begin(), flags.end(), [](char flag) { return flag; })) return;
+    std::vector<char> inside;
+    for (const int p : parts.of_triangle) inside.push_back(flags[static_cast<std::size_t>(p)]);
+    const auto half_edges = [&](int t) { return local_edges(s, t, 0.5); };
+    const Times half = same_times(s, 0.5);
+    s.turns = way_round(std::move(s.turns), s.from, s.to, s.triangles, top, faces, parts, half_edges);
+    s.hinges = hinges(s.from, s.to, s.triangles, top, faces, inside, half_edges,
+                      face_rotations(s.turns, patch_rotations(s.turns, half.patches), half.triangles));
+}
+
 // Leads the path through a middle shape with the lengths that edges should have there, where they lack much.
 void lead_through_middle(Prepared& s, bool closed, int rounds) {
     constexpr double much = 0.002; // mean strain: less is not worth the solves
@@ -230,7 +251,7 @@ void lead_through_middle(Prepared& s, bool closed, int rounds) {
     const Times half = same_times(s, 0.5);
     const Quaternions patches = patch_rotations(s.turns, half.patches);
     const Points straight =
-        s.poisson.solve(divergence(s, face_rotations(s.turns, patches, half.triangles), half.triangles));
+        s.poisson.solve(divergence(s, triangle_rotations(s, patches, half.triangles), half.triangles));
     const double strain = middle_strain(lengths, straight);
     if (!(strain > much)) return;
     const Points middle = with_blended_lengths(lengths, straight, rounds);
@@ -238,6 +259,7 @@ void lead_through_middle(Prepared& s, bool closed, int rounds) {
     s.turns = by_way_of(std::move(s.turns), face_field(s.from, middle, s.triangles), s.patch_of_triangle);
     const Quaternions turned = face_rotations(s.turns, patch_rotations(s.turns, half.patches), half.triangles);
     turn_back(turned, middle, s.triangles, s.bow_01, s.bow_12);
+    s.hinges = by_way_of(std::move(s.hinges), middle, s.triangles);
     parallel_for(s.triangles.rows(), [&](Eigen::Index t) {
         const auto p = [&](int k) { return s.from.row(s.triangles(t, k)); };
         s.bow_01.row(t) -= (p(1) - p(0) + s.back_01.row(t)) / 2;
@@ -269,6 +291,7 @@ Morph rigid_morph(const Mesh& from, const Points& to, const MorphOptions& option
                                                  triangles,
                                                  motion,
                                                  turns(faces, parts, attached),
+                                                 {},
                                                  parts.of_triangle,
                                                  {},
                                                  {},
@@ -285,6 +308,7 @@ Morph rigid_morph(const Mesh& from, const Points& to, const MorphOptions& option
     const Quaternions patch_end = patch_rotations(s->turns, last.patches);
     const Quaternions end = face_rotations(s->turns, patch_end, last.triangles);
     turn_back(end, s->to, triangles, s->back_01, s->back_12);
+    follow_hinges(*s, top, faces, parts);
     tell(0.8);
     if (options.rounds > 0) {
         const bool closed =

@@ -36,8 +36,8 @@ Quaternions synchronised(int count, const std::vector<RotationLink>& links, cons
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(3 * static_cast<Eigen::Index>(count), 3);
     for (const RotationRoot& root : roots)
         for (int i = 0; i < 3; ++i) {
-            triplets.emplace_back(3 * root.node + i, 3 * root.node + i, 1);
-            right.row(3 * root.node + i) = root.rotation.col(i).transpose();
+            triplets.emplace_back(3 * root.node + i, 3 * root.node + i, root.weight);
+            right.row(3 * root.node + i) = root.weight * root.rotation.col(i).transpose();
         }
     Eigen::SparseMatrix<double> matrix(right.rows(), right.rows());
     matrix.setFromTriplets(triplets.begin(), triplets.end());

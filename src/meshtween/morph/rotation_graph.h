@@ -14,6 +14,7 @@ struct RotationLink {
 struct RotationRoot { // one a connected part, at least
     int node = 0;
     Eigen::Matrix3d rotation;
+    double weight = 1;
 };
 
 // Minimises the sum of weight |X_first M - X_second|^2 over 3 x 3 matrices X, M a link's rotation, with the roots' X

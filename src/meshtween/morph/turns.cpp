@@ -18,14 +18,6 @@ Eigen::Vector3d rotation_vector(Eigen::Quaterniond q) {
     return s > 1e-12 ? Eigen::Vector3d(q.vec() * (2 * std::atan2(s, q.w()) / s)) : Eigen::Vector3d(2 * q.vec());
 }
 
-Eigen::Quaterniond exponential(const Eigen::Vector3d& v) {
-    const double angle = v.norm();
-    Eigen::Quaterniond q;
-    q.w() = std::cos(angle / 2);
-    q.vec() = v * (angle > 1e-8 ? std::sin(angle / 2) / angle : 0.5);
-    return q;
-}
-
 // 1 for no rotation, 0 for a half turn, where the way round is anybody's guess.
 double certainty(double angle) {
     const double c = (1 + std::cos(angle)) / 2;
@@ -80,6 +72,14 @@ Eigen::Vector3d on_the_way(double u, const Eigen::Vector3d& vector, const Eigen:
 }
 
 } // namespace
+
+Eigen::Quaterniond exponential(const Eigen::Vector3d& v) {
+    const double angle = v.norm();
+    Eigen::Quaterniond q;
+    q.w() = std::cos(angle / 2);
+    q.vec() = v * (angle > 1e-8 ? std::sin(angle / 2) / angle : 0.5);
+    return q;
+}
 
 Turns turns(const FaceField& faces, const Patches& patches, const std::vector<Attachment>& attached) {
     Turns result;

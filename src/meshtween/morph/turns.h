@@ -32,6 +32,9 @@ struct Turns {
         face_bows; // one a face, or none where all ways are straight
 };
 
+// The rotation about a vector by its length.
+Eigen::Quaterniond exponential(const Eigen::Vector3d& v);
+
 Turns turns(const FaceField& faces, const Patches& patches, const std::vector<Attachment>& attached);
 
 // The same turns by way of a middle shape at u = 0.5, into which the triangles turn like this: rotation vectors are no
