@@ -57,6 +57,9 @@ void add_fit_flags(CLI::App& verb, FitFlags& flags) {
         ->capture_default_str();
     verb.add_flag("--markers-exact", flags.options.markers_exact,
                   "Meet every marker to 1e-9 of the diagonal, also where that leaves the surface a little");
+    verb.add_flag_callback(
+        "--no-symmetry", [&flags] { flags.options.symmetry = false; },
+        "Do not give markers twins on the other side where source and target are their own mirror images");
     verb.add_flag("--on-surface", flags.options.on_surface,
                   "Leave every vertex exactly on the target; else each is lifted by so much that the triangles between "
                   "them lie on it in the mean");
@@ -168,6 +171,10 @@ Fitted run_fit(const Mesh& source, const Mesh& target, const MarkerPairs& marker
                                     place_markers(markers.pairs, fitted.source)));
     fitted.report["quality"] = to_json(quality);
     stop_if_interrupted();
+    if (result.twins > 0)
+        console.note(fmt::format("symmetry: both shapes are their own mirror images, {} marker{} drew on the other "
+                                 "side as well (--no-symmetry leaves that out)",
+                                 result.twins, result.twins == 1 ? "" : "s"));
     console.note(fmt::format("fit: {:.4f} % to the target, {:.4f} % back, {} flipped of {} faces, {} cuts, {:.2f} s",
                              quality.fitted_to_target.mean, quality.target_to_fitted.mean, quality.flipped.size(),
                              quality.triangles, quality.cuts.size(), seconds));

@@ -108,6 +108,7 @@ const std::vector<Row> rows = {
     {"NegativeMarkerWeight", {}, and_then(fit_with("#/good.obj"), {"--marker-weight", "-1"}), 1, {"--marker-weight"}},
     {"MarkerWeightNaN", {}, and_then(fit_with("#/good.obj"), {"--marker-weight", "nan"}), 1, {"--marker-weight"}},
     {"MarkerWeightTooLarge", {}, and_then(fit_with("#/good.obj"), {"--marker-weight", "1e9"}), 1, {"10"}},
+    {"NoSymmetryIsYesOrNo", {}, and_then(fit_with("#/good.obj"), {"--no-symmetry=perhaps"}), 1, {"--no-symmetry"}},
     {"MarkerNotANumber",
      {{"m.csv", four_markers + "e,x,0,0,1,0,0\n"}},
      fit_with("#/good.obj", "#/m.csv"),

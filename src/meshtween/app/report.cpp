@@ -105,6 +105,7 @@ Json to_json(const FitResult& result) {
             {"eq7", result.error},
             {"history", result.history},
             {"refused_steps", result.refused_steps},
+            {"mirror_twins", result.twins},
             {"notes", result.notes}};
 }
 

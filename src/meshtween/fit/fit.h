@@ -23,11 +23,12 @@ struct FitOptions {
     RbfOptions warp;         // paper: of the marker warp
     int max_rounds = 40;     // paper: of smoothing and projection
     double threshold = 1e-4; // paper: stop where sqrt(E / n), E of Eq. 7 before a round's projection, falls under this
-    double least_cosine = 0.3;  // paper: between a vertex normal and the target's normal where it may be projected
-    double marker_weight = 1;   // surface, 0..10: of the markers' pull beside the usual; 0: they pose the shell only
-    bool on_surface = false;    // surface: each vertex stays on the target; else they are lifted by so much that the
-                                // triangles between them lie on it in the mean (lift.h)
-    bool markers_exact = false; // each marker's point ends on its place, to 1e-9 (meet_markers.h)
+    double least_cosine = 0.3; // paper: between a vertex normal and the target's normal where it may be projected
+    double marker_weight = 1;  // surface, 0..10: of the markers' pull beside the usual; 0: they pose the shell only
+    bool on_surface = false;   // surface: each vertex stays on the target; else they are lifted by so much that the
+                               // triangles between them lie on it in the mean (lift.h)
+    bool symmetry = true; // surface: where both shapes are their own mirror images, markers have twins (marker_twins.h)
+    bool markers_exact = false;               // each marker's point ends on its place, to 1e-9 (meet_markers.h)
     std::function<void(const Points&)> watch; // called each round, from fit's thread, with the whole mesh so far
 };
 
@@ -42,6 +43,7 @@ struct FitResult {
     long refused_steps = 0;      // vertex moves shortened because they would have turned a triangle over
     std::vector<int> refused;    // surface: the vertices of those moves, ascending
     std::vector<int> mended; // surface: triangles that looked into the target on the way and no longer do, ascending
+    int twins = 0;           // surface: mirror images of markers that drew as well
     int patches = 0; // surface: laid out anew, because triangles were turned over or cut each other (untangle.h)
     std::vector<std::string> notes; // for people: what was unusual
 };

@@ -99,8 +99,38 @@ SurfacePoint coarser_place(const ShellLevels& all, std::size_t finer, const Surf
     return best;
 }
 
+// What a pin asks of the point of the triangle where it is.
+struct PinPull {
+    double weight = 0;
+    Point goal{0, 0, 0};
+};
+
+std::vector<PinPull> pin_pulls(const Shell& shell, const std::vector<Pin>& pins, const Points& positions,
+                               const std::vector<Matrix3d>& frames, const RelaxWeights& weights) {
+    double all = 0;
+    for (const Pin& pin : pins) all += pin.weight;
+    std::vector<PinPull> pulls;
+    for (const Pin& pin : pins) {
+        Matrix3d frame = Matrix3d::Zero();
+        for (int k = 0; k < 3; ++k)
+            frame += pin.where.barycentric[k] * frames[idx(shell.triangles(pin.where.triangle, k))];
+        PinPull pull{weights.pins * pin.weight / all, pin.target - pin.offset * frame.transpose()};
+        if (pin.slack > 0 && weights.closeness > 0) {
+            const Point way = position(positions, shell.triangles, pin.where) - pull.goal;
+            const double away = way.norm();
+            if (away <= pin.slack)
+                pull.weight = 0;
+            else
+                pull.goal += pin.slack / away * way;
+        }
+        pulls.push_back(pull);
+    }
+    return pulls;
+}
+
 // The forms of one level with their weights; blocks are still nought, pins are in.
-BlockSystem level_system(const ShellLevels& shells, std::size_t level, const RelaxWeights& weights) {
+BlockSystem level_system(const ShellLevels& shells, std::size_t level, const RelaxWeights& weights,
+                         const std::vector<PinPull>& pulls) {
     const Shell& shell = shells.shells[level];
     const double bending = std::pow(weights.length, 4), membrane = weights.membrane * weights.length * weights.length;
     BlockSystem system;
@@ -110,27 +140,21 @@ BlockSystem level_system(const ShellLevels& shells, std::size_t level, const Rel
         system.values[e] = bending * shell.bending[e] + membrane * shell.membrane[e];
     system.blocks.assign(shell.area.size(), Matrix3d::Zero());
     const auto& pins = shells.pins[level];
-    for (const Pin& pin : pins)
+    for (std::size_t k = 0; k < pins.size(); ++k)
         for (int a = 0; a < 3; ++a)
             for (int b = 0; b < 3; ++b) {
-                const int i = shell.triangles(pin.where.triangle, a), j = shell.triangles(pin.where.triangle, b);
-                system.values[shell.pattern->at(i, j)] += weights.pins / static_cast<double>(pins.size()) *
-                                                          pin.where.barycentric[a] * pin.where.barycentric[b];
+                const SurfacePoint& at = pins[k].where;
+                const int i = shell.triangles(at.triangle, a), j = shell.triangles(at.triangle, b);
+                system.values[shell.pattern->at(i, j)] += pulls[k].weight * at.barycentric[a] * at.barycentric[b];
             }
     return system;
 }
 
-void add_pins(const Shell& shell, const std::vector<Pin>& pins, const std::vector<Matrix3d>& frames, double weight,
-              Points& right) {
-    for (const Pin& pin : pins) {
-        Matrix3d frame = Matrix3d::Zero();
+void add_pins(const Shell& shell, const std::vector<Pin>& pins, const std::vector<PinPull>& pulls, Points& right) {
+    for (std::size_t p = 0; p < pins.size(); ++p)
         for (int k = 0; k < 3; ++k)
-            frame += pin.where.barycentric[k] * frames[idx(shell.triangles(pin.where.triangle, k))];
-        const Point goal = pin.target - pin.offset * frame.transpose();
-        for (int k = 0; k < 3; ++k)
-            right.row(shell.triangles(pin.where.triangle, k)) +=
-                weight / static_cast<double>(pins.size()) * pin.where.barycentric[k] * goal;
-    }
+            right.row(shell.triangles(pins[p].where.triangle, k)) +=
+                pulls[p].weight * pins[p].where.barycentric[k] * pulls[p].goal;
 }
 
 } // namespace
@@ -226,10 +250,11 @@ Points relax(const ShellLevels& shells, std::size_t level, const Points& positio
     Points result = positions;
     const auto frames =
         calmed(local_frames(shell, positions, weights.smoothing, weights.with_scale), weights.calm_turn);
-    std::vector<BlockSystem> systems{level_system(shells, level, weights)};
+    const std::vector<PinPull> pulls = pin_pulls(shell, shells.pins[level], positions, frames, weights);
+    std::vector<BlockSystem> systems{level_system(shells, level, weights, pulls)};
     Points right =
         rest_force(shell, frames, std::pow(weights.length, 4), weights.membrane * weights.length * weights.length);
-    add_pins(shell, shells.pins[level], frames, weights.pins, right);
+    add_pins(shell, shells.pins[level], pulls, right);
     if (weights.closeness > 0) {
         const Points normals = vertex_normals(positions, shell.triangles);
         memory.places.resize(idx(n), -1);
@@ -254,7 +279,7 @@ Points relax(const ShellLevels& shells, std::size_t level, const Points& positio
     std::unique_ptr<Multigrid> solver = std::move(memory.pose);
     if (!solver) {
         for (std::size_t k = level + 1; k < shells.levels.size(); ++k) {
-            systems.push_back(level_system(shells, k, weights));
+            systems.push_back(level_system(shells, k, weights, pulls));
             systems.back().blocks = to_coarse(shells.up[k - 1], systems[systems.size() - 2].blocks);
         }
         solver = std::make_unique<Multigrid>(std::move(systems), shells.up, level);

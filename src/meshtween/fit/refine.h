@@ -45,6 +45,8 @@ struct Pin {
     SurfacePoint where;
     Point offset{0, 0, 0}; // from there to the point, on the rest shape: coarse levels do not pass through it
     Point target{0, 0, 0};
+    double weight = 1; // beside other pins
+    double slack = 0;  // no nearer is asked for: a guess
 };
 
 // The template on every level, finest first.

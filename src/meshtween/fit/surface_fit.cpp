@@ -9,6 +9,7 @@
 #include "meshtween/core/parallel.h"
 #include "meshtween/fit/align.h"
 #include "meshtween/fit/crease.h"
+#include "meshtween/fit/marker_twins.h"
 #include "meshtween/fit/refine.h"
 #include "meshtween/fit/settle.h"
 #include "meshtween/fit/untangle.h"
@@ -127,6 +128,19 @@ void leave_grid(Points& x, const FitTarget& target, const Points& itself) {
         256);
 }
 
+// Pins for the markers' mirror twins, behind those of the markers. Returns how many.
+int add_twins(const Points& rest, const Triangles& triangles, const FitTarget& target, std::vector<Pin>& pins) {
+    Points from(std::ssize(pins), 3), to(std::ssize(pins), 3);
+    for (std::size_t k = 0; k < pins.size(); ++k) {
+        from.row(static_cast<Eigen::Index>(k)) = position(rest, triangles, pins[k].where);
+        to.row(static_cast<Eigen::Index>(k)) = pins[k].target;
+    }
+    const std::vector<MarkerTwin> twins =
+        marker_twins(rest, triangles, target.positions, target.triangles, target.index, from, to);
+    for (const MarkerTwin& twin : twins) pins.push_back({twin.source, {0, 0, 0}, twin.target, twin.weight, twin.slack});
+    return static_cast<int>(twins.size());
+}
+
 // The pose: as rigid as possible with the markers held, before anything is asked of the surface.
 Points articulate(const ShellLevels& shells, const FitTarget& target) {
     const std::size_t coarsest = shells.levels.size() - 1;
@@ -204,7 +218,8 @@ FitResult surface_fit(const Mesh& source, const Mesh& target_mesh, std::span<con
         start(source, target.positions, target.triangles, markers, goals, result.notes)(source.positions);
     std::vector<Pin> pins;
     for (std::size_t k = 0; k < markers.size(); ++k)
-        pins.push_back({markers[k].source, {0, 0, 0}, goals.row(static_cast<Eigen::Index>(k))});
+        pins.push_back({markers[k].source, {0, 0, 0}, goals.row(static_cast<Eigen::Index>(k)), 1, 0});
+    if (options.symmetry && options.marker_weight > 0) result.twins = add_twins(rest, source.triangles, target, pins);
     const ShellLevels shells = shell_levels(rest, source.triangles, pins, {250, 4});
 
     const std::size_t levels = shells.levels.size();
@@ -238,7 +253,7 @@ FitResult surface_fit(const Mesh& source, const Mesh& target_mesh, std::span<con
         if (k == 1 && going) x = eased(search, x);
     }
     const std::span<const Pin> held =
-        options.marker_weight > 0 ? std::span<const Pin>(shells.pins[0]) : std::span<const Pin>();
+        options.marker_weight > 0 ? std::span<const Pin>(shells.pins[0]).first(markers.size()) : std::span<const Pin>();
     if (going) going = finish(search, held, part_of(progress, 0.95, 1), x, result);
     for (Eigen::Index i = 0; i < x.rows(); ++i) // vertices of no triangle go where the similarity takes them
         if (shells.shells[0].topology.vertex_triangles[i].empty()) x.row(i) = rest.row(i);
