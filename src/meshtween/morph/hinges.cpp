@@ -63,7 +63,7 @@ std::optional<Hinge> hinge_at(const Edge& edge, const Points& from, const Points
     if (corner_of(triangles, a, i, j) < 0) std::swap(i, j);
     const int k = corner_of(triangles, a, i, j), l = corner_of(triangles, b, j, i);
     if (l < 0) return {}; // both run the same way: there is no angle between them
-    Hinge hinge{a, b, k, l, fold(from, triangles, a, k, b), fold(to, triangles, a, k, b), 0, 1};
+    Hinge hinge{a, b, k, l, fold(from, triangles, a, k, b), fold(to, triangles, a, k, b), 1};
     // As springs in a row; and small angles are surer.
     const double way = hinge.angle_to - hinge.angle_from;
     hinge.weight = faces.area[a] * faces.area[b] / (faces.area[a] + faces.area[b]) * std::exp(-way * way / 2);
@@ -72,7 +72,7 @@ std::optional<Hinge> hinge_at(const Edge& edge, const Points& from, const Points
 
 // The second's rotation against the first's at u.
 Eigen::Matrix3d between(const Hinge& hinge, const TriangleEdges& first, const TriangleEdges& second, double u) {
-    const double angle = (1 - u) * hinge.angle_from + u * hinge.angle_to + 4 * u * (1 - u) * hinge.bow;
+    const double angle = (1 - u) * hinge.angle_from + u * hinge.angle_to;
     return frame(first, first[idx(hinge.corner)]) * Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX()) *
            frame(second, -second[idx(hinge.partner)]).transpose();
 }
@@ -262,16 +262,6 @@ Hinges hinges(const Points& from, const Points& to, const Triangles& triangles, 
     grow_tree(result);
     result.system = least_squares(result);
     return result;
-}
-
-Hinges by_way_of(Hinges hinges, const Points& middle, const Triangles& triangles) {
-    for (Hinge& hinge : hinges.hinges) {
-        const int first = hinges.triangles[idx(hinge.first)], second = hinges.triangles[idx(hinge.second)];
-        hinge.bow = std::remainder(fold(middle, triangles, first, hinge.corner, second) -
-                                       (hinge.angle_from + hinge.angle_to) / 2,
-                                   2 * std::numbers::pi);
-    }
-    return hinges;
 }
 
 Quaternions turned_on_hinges(const Hinges& hinges, const LocalEdges& edges, const Eigen::VectorXd& u,

@@ -21,7 +21,6 @@ struct Hinge {
     int first = 0, second = 0;           // triangles, as numbered in Hinges
     int corner = 0, partner = 0;         // where the edge begins in the first; and in the second, where it runs back
     double angle_from = 0, angle_to = 0; // about the edge, from the first's normal to the second's
-    double bow = 0;                      // how far the middle's angle lies beside the mean of those
     double weight = 1;
 };
 
@@ -51,9 +50,6 @@ Turns way_round(Turns turns, const Points& from, const Points& to, const Triangl
 Hinges hinges(const Points& from, const Points& to, const Triangles& triangles, const Topology& topology,
               const FaceField& faces, const std::vector<char>& inside, const LocalEdges& half_edges,
               const Quaternions& half);
-
-// The same by way of a middle shape at u = 0.5.
-Hinges by_way_of(Hinges hinges, const Points& middle, const Triangles& triangles);
 
 // Rotations (m) at the triangles' parameters u (m), those inside replaced: angles about hinges go their way evenly.
 Quaternions turned_on_hinges(const Hinges& hinges, const LocalEdges& edges, const Eigen::VectorXd& u,

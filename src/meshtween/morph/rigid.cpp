@@ -259,12 +259,16 @@ void lead_through_middle(Prepared& s, bool closed, int rounds) {
     s.turns = by_way_of(std::move(s.turns), face_field(s.from, middle, s.triangles), s.patch_of_triangle);
     const Quaternions turned = face_rotations(s.turns, patch_rotations(s.turns, half.patches), half.triangles);
     turn_back(turned, middle, s.triangles, s.bow_01, s.bow_12);
-    s.hinges = by_way_of(std::move(s.hinges), middle, s.triangles);
     parallel_for(s.triangles.rows(), [&](Eigen::Index t) {
         const auto p = [&](int k) { return s.from.row(s.triangles(t, k)); };
         s.bow_01.row(t) -= (p(1) - p(0) + s.back_01.row(t)) / 2;
         s.bow_12.row(t) -= (p(2) - p(1) + s.back_12.row(t)) / 2;
     });
+    for (std::size_t n = 0; n < s.hinges.triangles.size(); ++n) // what the hinges turn keeps to their way
+        if (s.hinges.inside[n]) {
+            s.bow_01.row(s.hinges.triangles[n]).setZero();
+            s.bow_12.row(s.hinges.triangles[n]).setZero();
+        }
 }
 
 } // namespace
