@@ -60,6 +60,22 @@ TEST(Repair, EndsAndTheVelocitiesThereStay) {
         EXPECT_LT(test::distance(after.at(u), before.at(u)), 1e-5 * diagonal(fingers.to)) << u;
 }
 
+TEST(Repair, TurningOnTheWayChangesNothing) {
+    const Fingers fingers(0.37); // and 8 frames: no face lies exactly in another's plane, where rounding decides
+    const RepairOptions options{.frames = 8};
+    const Eigen::Vector3d axis(1, 2, 0.5);
+    Morph turning;
+    turning.at = [&, path = fingers.path()](double u) { return test::turned(path.at(u), 2 * u, axis, {3 * u, 0, 0}); };
+    const Repaired one = repaired(fingers.path(), fingers.mesh.triangles, options);
+    const Repaired other = repaired(curve(turning, {.tolerance = 1e-7}), fingers.mesh.triangles, options);
+    ASSERT_EQ(one.report.cuts_after, 0u);
+    EXPECT_EQ(other.report.cuts_after, 0u);
+    for (const double u : {0.3, 0.5}) {
+        const Points wanted = test::turned(one.curve.at(u), 2 * u, axis, {3 * u, 0, 0});
+        EXPECT_LT(test::distance(other.curve.at(u), wanted), 1e-3 * diagonal(fingers.to)) << u;
+    }
+}
+
 TEST(Repair, WhatDoesNotCutStays) {
     const Fingers fingers(3);
     const Curve before = fingers.path();

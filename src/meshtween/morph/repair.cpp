@@ -22,7 +22,8 @@ struct Film {
     const Triangles& triangles;
     std::vector<double> times;
     std::vector<Points> shapes;
-    std::vector<CutPairs> cuts; // without those of the ends
+    std::vector<Eigen::Matrix3d> turns; // of the whole, from the first shape to each frame
+    std::vector<CutPairs> cuts;         // without those of the ends
     CutPairs ends;
 };
 
@@ -32,11 +33,19 @@ CutPairs without(const CutPairs& pairs, const CutPairs& others) {
     return rest;
 }
 
+// How the triangles have turned in the mean. A shape that turns as a whole is bent in a frame that turns with it: what
+// comes out does not depend on how an end is turned.
+Eigen::Matrix3d turn_of(const Film& film, const Curve& curve, const Points& shape) {
+    const std::vector<int> all(static_cast<std::size_t>(film.triangles.rows()), 0);
+    return mean_rotations(face_field(curve.nodes.front(), shape, film.triangles), all, 1)[0].toRotationMatrix();
+}
+
 bool look(Film& film, const Curve& curve, const Progress& progress) {
     for (std::size_t f = 0; f < film.times.size(); ++f) {
         if (!keep_going(progress, static_cast<double>(f) / static_cast<double>(film.times.size()), "looking for cuts"))
             return false;
         film.shapes[f] = curve.at(film.times[f]);
+        film.turns[f] = turn_of(film, curve, film.shapes[f]);
         film.cuts[f] = without(self_intersections(film.shapes[f], film.triangles), film.ends);
     }
     return true;
@@ -157,8 +166,8 @@ std::vector<double> field(const Movable& part, double size) {
 
 // A displacement of some vertices at the bump's peak.
 struct Bend {
-    std::vector<double> way; // a vertex of the movable part
-    Point direction{0, 0, 0};
+    std::vector<double> way;  // a vertex of the movable part
+    Point direction{0, 0, 0}; // in the first shape's frame
     Bump bump;
 };
 
@@ -216,9 +225,8 @@ struct Place {
         ++trials;
         const Neighbourhood& near = frames[frame];
         Points positions = near.positions;
-        const double height = bend.bump(film.times[frame]);
-        for (std::size_t k = 0; k < near.moved.size(); ++k)
-            positions.row(near.moved[k]) += height * bend.way[k] * bend.direction;
+        const Point way = bend.bump(film.times[frame]) * bend.direction * film.turns[frame].transpose();
+        for (std::size_t k = 0; k < near.moved.size(); ++k) positions.row(near.moved[k]) += bend.way[k] * way;
         std::size_t count = 0;
         for (const auto& [a, b] : self_intersections(positions, near.triangles)) {
             const auto ia = static_cast<std::size_t>(a), ib = static_cast<std::size_t>(b);
@@ -252,18 +260,24 @@ Point normal_of(const Points& shape, const Triangles& triangles, const std::vect
 // The way out that the surfaces' own normals show, then the axes and diagonals of a frame along the relative motion.
 std::vector<Point> directions(const Film& film, const Contact& contact) {
     const auto at = [&](int frame) -> const Points& { return film.shapes[static_cast<std::size_t>(frame)]; };
-    const auto gap = [&](const Points& shape) -> Point {
-        return mean_of(shape, film.triangles, contact.sides[0]) - mean_of(shape, film.triangles, contact.sides[1]);
+    const auto unturned = [&](const Point& v, int frame) -> Point {
+        return v * film.turns[static_cast<std::size_t>(frame)];
+    };
+    const auto gap = [&](int frame) -> Point {
+        return unturned(mean_of(at(frame), film.triangles, contact.sides[0]) -
+                            mean_of(at(frame), film.triangles, contact.sides[1]),
+                        frame);
     };
     const int last = static_cast<int>(film.shapes.size()) - 1;
     const auto unit = [](const Point& v, const Point& otherwise) -> Point {
         return v.norm() > 0 ? Point(v.normalized()) : otherwise;
     };
-    const Point along = unit(
-        gap(at(std::min(contact.last_frame + 1, last))) - gap(at(std::max(contact.first_frame - 1, 0))), {1, 0, 0});
+    const Point along =
+        unit(gap(std::min(contact.last_frame + 1, last)) - gap(std::max(contact.first_frame - 1, 0)), {1, 0, 0});
     const Points& worst = at(contact.worst_frame);
-    const Point out =
-        normal_of(worst, film.triangles, contact.sides[1]) - normal_of(worst, film.triangles, contact.sides[0]);
+    const Point out = unturned(normal_of(worst, film.triangles, contact.sides[1]) -
+                                   normal_of(worst, film.triangles, contact.sides[0]),
+                               contact.worst_frame);
     const Point any = std::abs(along[0]) < 0.6 ? Point(1, 0, 0) : Point(0, 1, 0);
     const Point across = unit(along.cross(unit(out, any)), unit(along.cross(any), {0, 1, 0}));
     const Point third = along.cross(across);
@@ -327,12 +341,13 @@ Found search(Place& place, const Contact& contact, double reach, int most) {
     return best;
 }
 
-Curve bent(const Curve& curve, const Movable& part, const Bend& bend) {
+Curve bent(const Film& film, const Curve& curve, const Movable& part, const Bend& bend) {
     Curve result = resampled(curve, bend.bump.degree() + 1);
     for (std::size_t k = 1; k + 1 < result.nodes.size(); ++k) {
-        const double height = bend.bump(result.parameters[k]);
+        const Point way =
+            bend.bump(result.parameters[k]) * bend.direction * turn_of(film, curve, result.nodes[k]).transpose();
         for (std::size_t i = 0; i < part.vertices.size(); ++i)
-            result.nodes[k].row(part.vertices[i]) += height * bend.way[i] * bend.direction;
+            result.nodes[k].row(part.vertices[i]) += bend.way[i] * way;
     }
     return result;
 }
@@ -359,7 +374,7 @@ void bend_contacts(Repaired& result, Film& film, const Curve& original, const Pa
         const Found best = search(place, contact, reach, left);
         result.report.trials += place.trials;
         if (best.size <= 0) continue;
-        Curve better = bent(result.curve, part, best.bend);
+        Curve better = bent(film, result.curve, part, best.bend);
         const double moved = largest_move(better, original);
         if (moved > reach) continue; // together with what was bent before
         result.curve = std::move(better);
@@ -377,9 +392,10 @@ Repaired repaired(const Curve& curve, const Triangles& triangles, const RepairOp
     if (options.frames < 1 || options.rounds < 0 || !(options.reach > 0))
         throw Error(ErrorKind::argument, "a repair needs at least one frame, a reach above 0 and no negative rounds");
     Repaired result{curve, {}, false};
-    Film film{triangles, {}, {}, {}, {}};
+    Film film{triangles, {}, {}, {}, {}, {}};
     for (int f = 1; f <= options.frames; ++f) film.times.push_back(static_cast<double>(f) / (options.frames + 1));
     film.shapes.resize(film.times.size());
+    film.turns.resize(film.times.size());
     film.cuts.resize(film.times.size());
     for (const Points* end : {&curve.nodes.front(), &curve.nodes.back()}) {
         const CutPairs own = self_intersections(*end, triangles);
