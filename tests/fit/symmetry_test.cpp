@@ -156,8 +156,10 @@ TEST(MarkerTwins, PairsThatDisagreeGiveSlack) {
     from.topRows(8) = some_vertices(m.positions, 8, 0.05);
     from.row(8) = from.row(0), from(8, 2) *= -1;
     Points to = from;
-    to.row(8) += Point(0.03, 0, 0);
-    for (const MarkerTwin& twin : twins_of(m, m, from, to)) EXPECT_NEAR(twin.slack, 0.03, 0.005);
+    to.row(8) += Point(0.008, 0, 0);
+    const auto twins = twins_of(m, m, from, to);
+    EXPECT_FALSE(twins.empty());
+    for (const MarkerTwin& twin : twins) EXPECT_NEAR(twin.slack, 0.008, 0.001);
 }
 
 TEST(MarkerTwins, NoneWhereMarkersSayThatThePlanesDiffer) {

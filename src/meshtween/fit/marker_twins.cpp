@@ -15,6 +15,11 @@ constexpr double apart = 0.02;           // diagonals: an image nearer to a mark
 constexpr double alike = 0.02;           // diagonals: where a shape is further from its image the weight falls away
 constexpr double greatest_stretch = 1.5; // of the short way between a marker and another's image
 constexpr double least_weight = 0.01;
+constexpr double greatest_strain = 0.25; // of what lies between a twin and a marker, if the guess is off by its slack
+
+double nearest(const Points& points, const Point& to) {
+    return (points.rowwise() - to).rowwise().norm().minCoeff();
+}
 
 // The planes of source and target that belong together, null where none do.
 struct Planes {
@@ -82,12 +87,12 @@ std::vector<MarkerTwin> marker_twins(const Points& source, const Triangles& sour
         const Point s = on_source.row(k), t = on_target.row(k);
         const ClosestPoint there = source_index.closest(planes.source->plane.image(s)),
                            beyond = target_index.closest(planes.target->plane.image(t));
-        if ((on_source.rowwise() - there.position).rowwise().norm().minCoeff() < apart) continue;
         const double a = worse(*planes.source, s, there.position), b = worse(*planes.target, t, beyond.position);
         const double squares = a * a + b * b + there.squared_distance + beyond.squared_distance;
-        const double weight = std::exp(-squares / (alike * alike));
-        if (weight < least_weight) continue;
-        result.push_back({there.where, beyond.position, weight, std::hypot(2 * std::sqrt(squares), common)});
+        const double weight = std::exp(-squares / (alike * alike)), slack = std::hypot(2 * std::sqrt(squares), common);
+        const double near = std::min(nearest(on_source, there.position), nearest(on_target, beyond.position));
+        if (weight < least_weight || near < std::max(apart, slack / greatest_strain)) continue;
+        result.push_back({there.where, beyond.position, weight, slack});
     }
     return result;
 }
