@@ -164,9 +164,10 @@ Fitted run_fit(const Mesh& source, const Mesh& target, const MarkerPairs& marker
     fitted.mesh.positions = result.positions;
     fitted.report["seconds"] = seconds;
     keep_going(progress, 0.8, "measuring");
-    const Quality quality = measure(fitted.source, fitted.mesh, target, {}, markers.pairs, seed);
+    const Comparison both(fitted.mesh, target);
+    const Quality quality = measure(fitted.source, both, {}, markers.pairs, seed);
     keep_going(progress, 0.9, "finding places");
-    fitted.map = correspondence(fitted.mesh, target);
+    fitted.map = correspondence(both);
     fitted.report.update(fit_places(fitted.source, fitted.mesh, target, result, fitted.map, quality,
                                     place_markers(markers.pairs, fitted.source)));
     fitted.report["quality"] = to_json(quality);

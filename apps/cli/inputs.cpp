@@ -21,13 +21,15 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 namespace {
 
-void require_usable(const Mesh& mesh, const std::string& path, Console& console) {
-    for (const Finding& finding : check(mesh)) {
+std::vector<Finding> require_usable(const Mesh& mesh, const std::string& path, Console& console) {
+    std::vector<Finding> findings = check(mesh);
+    for (const Finding& finding : findings) {
         if (finding.severity == Severity::error)
             throw Error(ErrorKind::file, fmt::format("{}: {}", path, finding.what));
         if (finding.severity == Severity::warning) console.warn(fmt::format("{}: {}", path, finding.what));
     }
     stop_if_interrupted();
+    return findings;
 }
 
 } // namespace
@@ -35,6 +37,12 @@ void require_usable(const Mesh& mesh, const std::string& path, Console& console)
 Mesh load_mesh(const std::string& path, Console& console) {
     Mesh mesh = read_mesh(path);
     require_usable(mesh, path, console);
+    return mesh;
+}
+
+Mesh load_mesh(const std::string& path, Console& console, Json& described) {
+    Mesh mesh = read_mesh(path);
+    described = describe(mesh, require_usable(mesh, path, console));
     return mesh;
 }
 

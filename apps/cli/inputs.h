@@ -22,6 +22,7 @@ struct Common {
 };
 
 meshtween::Mesh load_mesh(const std::string& path, Console& console); // with warnings about what is unusual
+meshtween::Mesh load_mesh(const std::string& path, Console& console, meshtween::Json& described);
 // Meshes of one connectivity, polygons cut alike; throws Error(file) naming the two that differ.
 std::vector<meshtween::Mesh> load_one_connectivity(const std::vector<std::string>& paths, Console& console);
 // None where no file is named. Throws Error(file) for a file without a usable pair.

@@ -35,8 +35,8 @@ void add_fit(CLI::App& app, const Common& common) {
         const auto outputs = load_outputs(a->outputs);
         check_still(outputs);
         check_fit_files(a->fit);
-        const Mesh source = load_mesh(a->source, console), target = load_mesh(a->target, console);
-        report["source"] = describe(source), report["target"] = describe(target);
+        const Mesh source = load_mesh(a->source, console, report["source"]),
+                   target = load_mesh(a->target, console, report["target"]);
         const MarkerPairs markers = load_markers(a->markers, source, target, console);
         const Progress progress = console.progress();
         const Fitted fitted =

@@ -29,8 +29,8 @@ void morph_two(const Arguments& a, std::uint32_t seed, Console& console, Json& r
     const auto outputs = load_outputs(a.outputs);
     a.path.at.empty() ? check_playable(outputs) : check_still(outputs);
     check_fit_files(a.fit);
-    const Mesh source = load_mesh(a.source, console), target = load_mesh(a.target, console);
-    report["source"] = describe(source), report["target"] = describe(target);
+    const Mesh source = load_mesh(a.source, console, report["source"]),
+               target = load_mesh(a.target, console, report["target"]);
     const MarkerPairs markers = load_markers(a.markers, source, target, console);
     const Progress progress = console.progress();
     const Fitted fitted = run_fit(source, target, markers, a.fit, seed, part_of(progress, 0, 0.6), console);
@@ -53,9 +53,9 @@ void morph_two(const Arguments& a, std::uint32_t seed, Console& console, Json& r
 void morph_through_template(const Arguments& a, std::uint32_t seed, Console& console, Json& report) {
     const auto outputs = load_outputs(a.outputs);
     a.path.at.empty() ? check_playable(outputs) : check_still(outputs);
-    const Mesh common = load_mesh(a.template_mesh, console);
-    const Mesh first = load_mesh(a.source, console), second = load_mesh(a.target, console);
-    report["template"] = describe(common), report["source"] = describe(first), report["target"] = describe(second);
+    const Mesh common = load_mesh(a.template_mesh, console, report["template"]),
+               first = load_mesh(a.source, console, report["source"]),
+               second = load_mesh(a.target, console, report["target"]);
     const MarkerPairs to_first = load_markers(a.markers_a, common, first, console);
     const MarkerPairs to_second = load_markers(a.markers_b, common, second, console);
     const Progress progress = console.progress();

@@ -99,6 +99,21 @@ TEST_F(Verbs, MarkersExactEndsOnTheMarkersAndSeedsReachTheMeasures) {
     EXPECT_EQ(one["eq7"], two["eq7"]);
 }
 
+TEST_F(Verbs, OnSurfaceLeavesEveryVertexOnTheTarget) {
+    egg();
+    const auto quality_with = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"fit", file("ball.ply"), file("egg.ply"), "--markers",   file("egg.csv"),
+                                           "-o",  file("f.ply"),    "--report",      file("f.json")};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        run(arguments);
+        return read_json(folder_ / "f.json")["fit"]["quality"];
+    };
+    const Json on = quality_with({"--on-surface"}), lifted = quality_with({});
+    EXPECT_LT(on["vertex_to_target"]["max"], 1e-5);
+    EXPECT_GT(lifted["vertex_to_target"]["mean"], 1e-2) << "else they are lifted";
+    EXPECT_LT(lifted["fitted_to_target"]["mean"], on["fitted_to_target"]["mean"]) << "so that the triangles lie on it";
+}
+
 TEST_F(Verbs, RefinedSourcesServeTween) {
     egg();
     meshtween::write_mesh(meshtween::sphere(2), folder_ / "coarse.ply");

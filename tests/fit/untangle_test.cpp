@@ -43,7 +43,7 @@ Points folded_over(const Points& positions, double how_far, double wide = 0.5) {
 TEST(Untangle, ACleanMeshComesBackBitForBit) {
     const Ball ball;
     TangleSearch search = ball.search();
-    const Untangled result = untangle(search, ball.mesh.positions, {});
+    const Untangled result = untangle(search, ball.mesh.positions, tangles(search, ball.mesh.positions), {});
     EXPECT_EQ(result.positions, ball.mesh.positions);
     EXPECT_EQ(result.left.count(), 0u);
     EXPECT_EQ(result.patches, 0);
@@ -55,9 +55,10 @@ TEST(Untangle, AFoldIsUndoneAndTheRestIsHeld) {
     const Ball ball;
     TangleSearch search = ball.search();
     const Points folded = folded_over(ball.mesh.positions, 1.0);
-    const Untangled result = untangle(search, folded, {});
-    EXPECT_GT(result.before.flips.size(), 10u);
-    EXPECT_GT(result.before.cuts.size(), 10u);
+    const Tangles before = tangles(search, folded);
+    EXPECT_GT(before.flips.size(), 10u);
+    EXPECT_GT(before.cuts.size(), 10u);
+    const Untangled result = untangle(search, folded, before, {});
     EXPECT_EQ(result.left.count(), 0u);
     EXPECT_GE(result.patches, 1);
     const double radius = ball.mesh.positions.row(0).norm();
@@ -75,9 +76,9 @@ TEST(Untangle, TheSameBitsForAnyNumberOfThreads) {
     const Points folded = folded_over(ball.mesh.positions, 1.0);
     TangleSearch one = ball.search(), two = ball.search();
     set_threads(1);
-    const Points alone = untangle(one, folded, {}).positions;
+    const Points alone = untangle(one, folded, tangles(one, folded), {}).positions;
     set_threads(3);
-    EXPECT_EQ(untangle(two, folded, {}).positions, alone);
+    EXPECT_EQ(untangle(two, folded, tangles(two, folded), {}).positions, alone);
     set_threads(0);
 }
 
@@ -94,9 +95,9 @@ TEST(Untangle, WhatCannotBeMendedIsToldAndLeftAsItIs) {
     const Mesh ball = sphere(3);
     const FitTarget target = fit_target(ball.positions, ball.triangles);
     TangleSearch search{rest, target, {}};
-    const Untangled result = untangle(search, strip.positions, {});
+    const Untangled result = untangle(search, strip.positions, tangles(search, strip.positions), {});
     EXPECT_FALSE(result.left.cuts.empty());
-    EXPECT_EQ(result.left.cuts, result.before.cuts);
+    EXPECT_EQ(result.left.cuts, tangles(search, strip.positions).cuts);
     EXPECT_EQ(result.positions, strip.positions);
     EXPECT_EQ(result.patches, 0);
 }
@@ -117,14 +118,14 @@ TEST(Untangle, ProgressIsToldAndCancellingIsAResult) {
     TangleSearch search = ball.search();
     const Points folded = folded_over(ball.mesh.positions, 1.0);
     std::string stage;
-    const Untangled result = untangle(search, folded, {}, [&](double, std::string_view name) {
+    const Untangled result = untangle(search, folded, tangles(search, folded), {}, [&](double, std::string_view name) {
         stage = name;
         return false;
     });
     EXPECT_TRUE(result.cancelled);
     EXPECT_EQ(stage, "untangling");
     EXPECT_EQ(result.positions, folded);
-    EXPECT_EQ(result.left.count(), result.before.count());
+    EXPECT_EQ(result.left.count(), tangles(search, folded).count());
 }
 
 TEST(HeldBack, OnlyWhatWouldFoldWaits) {

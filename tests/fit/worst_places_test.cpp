@@ -61,7 +61,7 @@ TEST(SuggestMarkers, StartAtTheWorstAndKeepApart) {
     target.positions.row(horn) *= 1.4;
     const Correspondence map = correspondence(m, target);
     const auto faults = place_faults(m, m, map);
-    const auto next = suggest_markers(m, m, target, map, faults, {});
+    const auto next = suggest_markers(m, target, map, faults, {});
     ASSERT_EQ(next.size(), 5u);
     EXPECT_EQ(next[0].place.vertex, horn);
     EXPECT_LT((next[0].target - target.positions.row(horn)).norm(), 1e-9); // where the uncovered part is
@@ -81,7 +81,7 @@ TEST(SuggestMarkers, NoneBesideAMarker) {
         if (m.triangles(t, 0) == horn) markers.push_back({"horn", {static_cast<int>(t), {1, 0, 0}}, {0, 0, 0}});
     ASSERT_EQ(markers.size(), 1u);
     const Correspondence map = correspondence(m, target);
-    for (const MarkerSuggestion& s : suggest_markers(m, m, target, map, place_faults(m, m, map), markers, 10))
+    for (const MarkerSuggestion& s : suggest_markers(m, target, map, place_faults(m, m, map), markers, 10))
         EXPECT_GT((m.positions.row(s.place.vertex) - m.positions.row(horn)).norm(), 0.03 * diagonal(m.positions));
 }
 

@@ -116,13 +116,13 @@ Json to_json(const std::vector<Finding>& findings) {
     return json;
 }
 
-Json describe(const Mesh& mesh) {
+Json describe(const Mesh& mesh, const std::vector<Finding>& findings) {
     return {{"vertices", mesh.positions.rows()},
             {"triangles", mesh.triangles.rows()},
             {"diagonal", diagonal(mesh.positions)},
             {"area", surface_area(mesh.positions, mesh.triangles)},
             {"volume", volume(mesh.positions, mesh.triangles)},
-            {"findings", to_json(check(mesh))}};
+            {"findings", to_json(findings)}};
 }
 
 Json fit_places(const Mesh& source, const Mesh& fitted, const Mesh& target, const FitResult& result,
@@ -136,7 +136,7 @@ Json fit_places(const Mesh& source, const Mesh& fitted, const Mesh& target, cons
                          {"badness", place.badness},
                          {"source", told(source.positions.row(place.vertex))},
                          {"fitted", told(fitted.positions.row(place.vertex))}});
-    for (const MarkerSuggestion& s : suggest_markers(source, fitted, target, map, faults, markers))
+    for (const MarkerSuggestion& s : suggest_markers(source, target, map, faults, markers))
         next.push_back({{"source", told(source.positions.row(s.place.vertex))},
                         {"target", told(s.target)},
                         {"vertex", s.place.vertex},

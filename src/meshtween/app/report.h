@@ -22,7 +22,11 @@ Json to_json(const Statistics& s);
 Json to_json(const Quality& quality);
 Json to_json(const FitResult& result);
 Json to_json(const std::vector<Finding>& findings);
-Json describe(const Mesh& mesh); // counts, extent, area, volume and findings
+// Counts, extent, area, volume and findings, which are those of check().
+Json describe(const Mesh& mesh, const std::vector<Finding>& findings);
+inline Json describe(const Mesh& mesh) {
+    return describe(mesh, check(mesh));
+}
 
 // What a fit's guards did and where, its worst places, and where the next markers should go: "guards", "worst" and
 // "next_markers". Lengths are percent of the target's diagonal, points in the meshes' own units; `most`: entries of a

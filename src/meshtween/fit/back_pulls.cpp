@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace meshtween {
@@ -33,6 +34,23 @@ ClosestPoint place_on_open(const ClosestPointIndex& index, const Shell& shell, c
     return closest;
 }
 
+struct BackPull {
+    SurfacePoint where; // on the mesh
+    Point way{0, 0, 0}, direction{0, 0, 0};
+    double strength = 0;
+};
+
+// Which pulls reach each vertex, in their order.
+Interpolation reached_by(const std::vector<BackPull>& pulls, const Shell& shell) {
+    std::vector<std::array<int, 3>> corners;
+    corners.reserve(pulls.size());
+    for (const BackPull& p : pulls) {
+        const auto f = shell.triangles.row(p.where.triangle);
+        corners.push_back({f[0], f[1], f[2]});
+    }
+    return interpolation(shell.rest.rows(), std::move(corners), {});
+}
+
 } // namespace
 
 void add_back_pulls(const Shell& shell, const Points& positions, const FitTarget& target, double weight, double reach,
@@ -46,43 +64,42 @@ void add_back_pulls(const Shell& shell, const Points& positions, const FitTarget
     const bool open = std::find(rim.begin(), rim.end(), 1) != rim.end();
     const Eigen::Index all = target.positions.rows(),
                        step = std::max<Eigen::Index>(1, all / std::max<Eigen::Index>(least_samples, positions.rows()));
-    std::vector<ClosestPoint> places(idx((all + step - 1) / step));
-    memory.back_places.resize(places.size(), -1);
+    std::vector<BackPull> pulls(idx((all + step - 1) / step));
+    memory.back_places.resize(pulls.size(), -1);
     parallel_for(
-        static_cast<std::ptrdiff_t>(places.size()),
+        std::ssize(pulls),
         [&](std::ptrdiff_t k) {
-            const Point from = target.positions.row(k * step), normal = target.normals.row(k * step);
+            const Eigen::Index i = k * step;
+            const Point from = target.positions.row(i), normal = target.normals.row(i);
             int& last = memory.back_places[idx(k)];
-            places[idx(k)] = open ? place_on_open(index, shell, from, normal, reach, last)
-                                  : index.closest(from, Compatible{normal, 0}, reach, last);
-            if (places[idx(k)].found()) last = places[idx(k)].where.triangle;
+            const ClosestPoint place = open ? place_on_open(index, shell, from, normal, reach, last)
+                                            : index.closest(from, Compatible{normal, 0}, reach, last);
+            if (!place.found()) return;
+            last = place.where.triangle;
+            const Point facing = index.normals().row(last), way = from - place.position;
+            pulls[idx(k)] = {place.where, way, place.squared_distance > 1e-18 ? Point(way.normalized()) : facing,
+                             weight * target.area[idx(i)] * static_cast<double>(step) *
+                                 std::max(0.0, facing.dot(normal))};
         },
         64);
-    std::vector<Eigen::Matrix3d> drawn(blocks.size(), Eigen::Matrix3d::Zero());
-    Points towards = Points::Zero(right.rows(), 3);
-    for (std::size_t k = 0; k < places.size(); ++k) { // in order: several may reach one vertex
-        const ClosestPoint& place = places[k];
-        if (!place.found()) continue;
-        const Eigen::Index i = static_cast<Eigen::Index>(k) * step;
-        const Point normal = index.normals().row(place.where.triangle);
-        const Point way = target.positions.row(i) - place.position;
-        const Point direction = place.squared_distance > 1e-18 ? Point(way.normalized()) : normal;
-        const double trust = std::max(0.0, normal.dot(target.normals.row(i)));
-        const Eigen::Matrix3d pull =
-            weight * target.area[idx(i)] * static_cast<double>(step) * trust * direction.transpose() * direction;
-        for (int c = 0; c < 3; ++c) {
-            const int vertex = shell.triangles(place.where.triangle, c);
-            const double share = place.where.barycentric[c];
-            drawn[idx(vertex)] += share * pull;
-            towards.row(vertex) += share * (Point(positions.row(vertex)) + way) * pull;
+    std::erase_if(pulls, [](const BackPull& p) { return p.where.triangle < 0; });
+    const Interpolation reached = reached_by(pulls, shell);
+    parallel_for(positions.rows(), [&](std::ptrdiff_t v) {
+        Eigen::Matrix3d drawn = Eigen::Matrix3d::Zero();
+        Point towards(0, 0, 0);
+        for (auto e = idx(reached.first[idx(v)]); e < idx(reached.first[idx(v) + 1]); ++e) {
+            const BackPull& p = pulls[idx(reached.fine[e])];
+            const double share = p.where.barycentric[reached.slot[e]];
+            const Eigen::Matrix3d pull = p.strength * p.direction.transpose() * p.direction;
+            drawn += share * pull;
+            towards += share * (Point(positions.row(v)) + p.way) * pull;
         }
-    }
-    // No vertex is drawn harder than it clings itself: much that is uncovered must not tear at the few that are near.
-    for (std::size_t v = 0; v < drawn.size(); ++v) {
-        const double share = std::min(1.0, weight * shell.area[v] / std::max(drawn[v].trace(), 1e-300));
-        blocks[v] += share * drawn[v];
-        right.row(static_cast<Eigen::Index>(v)) += share * towards.row(static_cast<Eigen::Index>(v));
-    }
+        // No vertex is drawn harder than it clings itself: much that is uncovered must not tear at the few that are
+        // near.
+        const double share = std::min(1.0, weight * shell.area[idx(v)] / std::max(drawn.trace(), 1e-300));
+        blocks[idx(v)] += share * drawn;
+        right.row(v) += share * towards;
+    });
 }
 
 } // namespace meshtween

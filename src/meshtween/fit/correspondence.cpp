@@ -19,23 +19,23 @@ std::size_t idx(std::ptrdiff_t i) {
 
 constexpr double near_enough = 0.005; // of the diagonal: distances well under this cost no trust
 
-std::vector<ClosestPoint> closest_alike(const Mesh& mesh, const ClosestPointIndex& surface, double diagonal) {
+// From the closest of all for each vertex of the mesh.
+std::vector<ClosestPoint> closest_alike(const Mesh& mesh, const ClosestPointIndex& surface, double diagonal,
+                                        std::vector<ClosestPoint> closest) {
     constexpr double further = 1.5, slack = 0.001; // of the distance to the closest point; of the diagonal
     const Points normals = vertex_normals(mesh.positions, mesh.triangles);
-    std::vector<ClosestPoint> all(idx(mesh.positions.rows()));
     parallel_for(
         mesh.positions.rows(),
         [&](std::ptrdiff_t i) {
-            const Point at = mesh.positions.row(i);
-            ClosestPoint& best = all[idx(i)];
-            best = surface.closest(at);
+            ClosestPoint& best = closest[idx(i)];
             if (surface.normals().row(best.where.triangle).dot(normals.row(i)) >= 0) return;
             const double reach = further * std::sqrt(best.squared_distance) + slack * diagonal;
-            const ClosestPoint alike = surface.closest(at, {normals.row(i), 0.0}, reach, best.where.triangle);
+            const ClosestPoint alike =
+                surface.closest(Point(mesh.positions.row(i)), {normals.row(i), 0.0}, reach, best.where.triangle);
             if (alike.found()) best = alike;
         },
         256);
-    return all;
+    return closest;
 }
 
 // A place on an edge or a corner of the border, to within rounding.
@@ -61,18 +61,23 @@ Points vertices_and_centres(const Mesh& mesh) {
 }
 
 // What lies beyond the fitted mesh's own border is no part of it and does not count.
-std::vector<double> uncovered(const Mesh& fitted, const Topology& topology, const Mesh& target) {
-    const double scale = diagonal(target.positions);
-    const std::vector<ClosestPoint> back = ClosestPointIndex(fitted).closest(vertices_and_centres(target));
-    std::vector<double> furthest(idx(fitted.positions.rows()), 0.0);
-    for (const ClosestPoint& c : back) {
-        if (at_border(c.where, fitted.triangles, topology.on_boundary)) continue;
+void find_uncovered(const Comparison& both, const Topology& topology, Correspondence& map) {
+    const Mesh& fitted = both.fitted;
+    map.uncovered.assign(idx(fitted.positions.rows()), 0.0);
+    map.uncovered_at = fitted.positions;
+    const Points places = vertices_and_centres(both.target);
+    const std::vector<ClosestPoint> back = both.on_fitted.closest(places);
+    for (std::size_t i = 0; i < back.size(); ++i) {
+        const SurfacePoint& where = back[i].where;
+        if (at_border(where, fitted.triangles, topology.on_boundary)) continue;
         int corner = 0;
-        c.where.barycentric.maxCoeff(&corner);
-        double& here = furthest[idx(fitted.triangles(c.where.triangle, corner))];
-        here = std::max(here, std::sqrt(c.squared_distance) / scale);
+        where.barycentric.maxCoeff(&corner);
+        const int v = fitted.triangles(where.triangle, corner);
+        const double far = std::sqrt(back[i].squared_distance) / both.diagonal;
+        if (far <= map.uncovered[idx(v)]) continue;
+        map.uncovered[idx(v)] = far;
+        map.uncovered_at.row(v) = places.row(static_cast<Eigen::Index>(i));
     }
-    return furthest;
 }
 
 double falling(double distance) {
@@ -82,25 +87,26 @@ double falling(double distance) {
 } // namespace
 
 std::vector<SurfacePoint> places_on(const Mesh& mesh, const Mesh& surface) {
+    const ClosestPointIndex index(surface);
     std::vector<SurfacePoint> places;
-    for (const ClosestPoint& c : closest_alike(mesh, ClosestPointIndex(surface), diagonal(surface.positions)))
+    for (const ClosestPoint& c : closest_alike(mesh, index, diagonal(surface.positions), index.closest(mesh.positions)))
         places.push_back(c.where);
     return places;
 }
 
-Correspondence correspondence(const Mesh& fitted, const Mesh& target) {
-    const ClosestPointIndex surface(target);
-    const double scale = diagonal(target.positions);
+Correspondence correspondence(const Comparison& both) {
+    const Mesh &fitted = both.fitted, &target = both.target;
+    const ClosestPointIndex& surface = both.on_target;
     const Points normals = vertex_normals(fitted.positions, fitted.triangles);
     const Topology own = topology(fitted.positions.rows(), fitted.triangles);
     const Topology other = topology(target.positions.rows(), target.triangles);
     Correspondence map;
-    map.uncovered = uncovered(fitted, own, target);
-    const std::vector<ClosestPoint> closest = closest_alike(fitted, surface, scale);
+    find_uncovered(both, own, map);
+    const std::vector<ClosestPoint> closest = closest_alike(fitted, surface, both.diagonal, both.vertices);
     for (std::size_t i = 0; i < closest.size(); ++i) {
         const SurfacePoint& place = closest[i].where;
         map.places.push_back(place);
-        map.distance.push_back(std::sqrt(closest[i].squared_distance) / scale);
+        map.distance.push_back(std::sqrt(closest[i].squared_distance) / both.diagonal);
         map.agreement.push_back(normals.row(static_cast<Eigen::Index>(i)).dot(surface.normals().row(place.triangle)));
         map.border.push_back(own.on_boundary[i] == 0 && at_border(place, target.triangles, other.on_boundary) ? 1 : 0);
         map.trust.push_back(map.border[i] != 0 ? 0

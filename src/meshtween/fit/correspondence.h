@@ -2,6 +2,7 @@
 #pragma once
 
 #include "meshtween/core/mesh.h"
+#include "meshtween/fit/comparison.h"
 
 #include <filesystem>
 #include <vector>
@@ -22,10 +23,14 @@ struct Correspondence {
                                    // ends before it, and nothing there answers to it
     std::vector<double> uncovered; // furthest of the target's vertices and triangle centres for which this vertex
                                    // would have to answer (those closest to its triangles)
+    Points uncovered_at;           // n x 3: that point of the target; the vertex itself where there is none
     std::vector<double> trust;     // 0..1: nought on a border or where the normals oppose, else the agreement times
                                    // exp(-(d / 0.005)^2), for the distance and for the uncovered
 };
-Correspondence correspondence(const Mesh& fitted, const Mesh& target);
+Correspondence correspondence(const Comparison& both);
+inline Correspondence correspondence(const Mesh& fitted, const Mesh& target) {
+    return correspondence(Comparison(fitted, target));
+}
 
 // CSV with the header vertex,triangle,a,b,c,distance: a row a vertex; a, b and c belong to the triangle's corners. All
 // counted from 0, distance in parts of the diagonal. As write_whole.

@@ -1,7 +1,7 @@
 #include "meshtween/fit/fit.h"
 
 #include "meshtween/core/error.h"
-#include "meshtween/fit/finish.h"
+#include "meshtween/fit/meet_markers.h"
 #include "meshtween/fit/paper_fit.h"
 #include "meshtween/fit/surface_fit.h"
 #include "meshtween/geometry/measure.h"
@@ -94,7 +94,7 @@ FitResult fit(const Mesh& source, const Mesh& target, std::span<const Marker> ma
     check_mesh(target, "target");
     check_markers(source, markers);
     FitResult result = fit_by_method(source, target, markers, options, progress);
-    if (result.end != FitEnd::cancelled) finish_fit(result, source, target, markers, options);
+    if (result.end != FitEnd::cancelled && options.markers_exact) meet_markers(result, source, target, markers);
     return result;
 }
 

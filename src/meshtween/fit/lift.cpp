@@ -179,4 +179,13 @@ Points lifted(const Points& positions, const Triangles& triangles, const Topolog
     return result;
 }
 
+Points lifted(const Mesh& fitted, const Mesh& target) {
+    const Point centre = target.positions.colwise().mean();
+    const double size = diagonal(target.positions);
+    const Points x = (fitted.positions.rowwise() - centre) / size;
+    const FitTarget surface = fit_target((target.positions.rowwise() - centre) / size, target.triangles);
+    const Points y = lifted(x, fitted.triangles, topology(x.rows(), fitted.triangles), surface);
+    return (y * size).rowwise() + centre;
+}
+
 } // namespace meshtween

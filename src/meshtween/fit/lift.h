@@ -12,5 +12,6 @@ namespace meshtween {
 // triangles of that size can miss a surface, and where it looks another way, nothing is asked of it. No vertex moves
 // further than a twentieth of its longest edge, none that would turn a triangle over. n x 3.
 Points lifted(const Points& positions, const Triangles& triangles, const Topology& topology, const FitTarget& target);
+Points lifted(const Mesh& fitted, const Mesh& target); // in any unit
 
 } // namespace meshtween

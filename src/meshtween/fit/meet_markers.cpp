@@ -9,6 +9,8 @@
 #include "meshtween/geometry/measure.h"
 #include "meshtween/geometry/topology.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -203,6 +205,15 @@ MetMarkers meet_markers(const Mesh& fitted, const Mesh& target_mesh, std::span<c
     for (std::size_t k = 0; k < markers.size(); ++k)
         if (left[static_cast<Eigen::Index>(k)] > met * target.diagonal) result.missed.push_back(k);
     return result;
+}
+
+void meet_markers(FitResult& fit, const Mesh& source, const Mesh& target, std::span<const Marker> markers) {
+    MetMarkers met = meet_markers({fit.positions, source.triangles, {}, {}, {}}, target, markers);
+    fit.positions = std::move(met.positions);
+    for (const std::size_t k : met.missed)
+        fit.notes.push_back(fmt::format("marker '{}' cannot be met exactly beside its neighbours: the source is too "
+                                        "coarse there, refine it or take a marker away",
+                                        markers[k].name));
 }
 
 } // namespace meshtween

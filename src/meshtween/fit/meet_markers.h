@@ -2,6 +2,7 @@
 #pragma once
 
 #include "meshtween/core/mesh.h"
+#include "meshtween/fit/fit.h"
 
 #include <span>
 #include <vector>
@@ -19,5 +20,8 @@ struct MetMarkers {
 // has its corners a little off it. Of several widths the one that turns over fewest triangles is taken. Markers are
 // missed where more of them than the corners allow share a triangle, or two ask different places of one point.
 MetMarkers meet_markers(const Mesh& fitted, const Mesh& target, std::span<const Marker> markers);
+
+// The same for a fit of the source; markers that it misses are named in the notes.
+void meet_markers(FitResult& fit, const Mesh& source, const Mesh& target, std::span<const Marker> markers);
 
 } // namespace meshtween

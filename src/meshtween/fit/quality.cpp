@@ -5,13 +5,13 @@
 #include "meshtween/core/parallel.h"
 #include "meshtween/fit/markers.h"
 #include "meshtween/geometry/measure.h"
-#include "meshtween/search/closest_point.h"
 #include "meshtween/search/self_intersections.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 namespace meshtween {
@@ -19,40 +19,60 @@ namespace {
 
 constexpr int sample_count = 100000;
 
-// Points spread evenly over the surface, the same for the same seed.
-Points surface_samples(const Mesh& mesh, std::uint32_t seed) {
-    std::vector<double> cumulative;
-    double total = 0;
-    for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t)
-        cumulative.push_back(total += double_area_normal(mesh.positions, mesh.triangles, t).norm());
+struct Samples {
+    Points points;
+    std::vector<int> triangles; // on which each lies
+};
+
+// Points spread evenly over the surface, one in each of as many equal parts of its area; the same for the same seed.
+Samples surface_samples(const Mesh& mesh, std::uint32_t seed) {
+    const double share = 2 * surface_area(mesh.positions, mesh.triangles) / sample_count;
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> unit(0, 1);
-    Points points(sample_count, 3);
-    for (Eigen::Index i = 0; i < points.rows(); ++i) {
-        const auto found = std::lower_bound(cumulative.begin(), cumulative.end(), unit(random) * total);
-        const auto t = static_cast<int>(std::min(found - cumulative.begin(), std::ssize(cumulative) - 1));
+    Samples samples{Points(sample_count, 3), std::vector<int>(sample_count)};
+    int t = 0;
+    double before = 0, here = double_area_normal(mesh.positions, mesh.triangles, 0).norm();
+    for (int i = 0; i < sample_count; ++i) {
+        const double at = (i + unit(random)) * share;
+        while (before + here < at && t + 1 < mesh.triangles.rows()) {
+            before += here;
+            here = double_area_normal(mesh.positions, mesh.triangles, ++t).norm();
+        }
         const double a = std::sqrt(unit(random)), b = unit(random);
-        points.row(i) = position(mesh.positions, mesh.triangles, {t, {1 - a, a * (1 - b), a * b}});
+        samples.points.row(i) = position(mesh.positions, mesh.triangles, {t, {1 - a, a * (1 - b), a * b}});
+        samples.triangles[static_cast<std::size_t>(i)] = t;
     }
-    return points;
+    return samples;
 }
 
-std::vector<double> distances(const Points& points, const ClosestPointIndex& surface, double scale) {
-    const std::vector<ClosestPoint> closest = surface.closest(points);
+// In percent.
+std::vector<double> distances(const std::vector<ClosestPoint>& closest, double diagonal) {
     std::vector<double> result;
     result.reserve(closest.size());
-    for (const ClosestPoint& c : closest) result.push_back(std::sqrt(c.squared_distance) * scale);
+    for (const ClosestPoint& c : closest) result.push_back(std::sqrt(c.squared_distance) * 100 / diagonal);
     return result;
 }
 
-void count_flips(const Mesh& fitted, const Mesh& target, const ClosestPointIndex& surface, Quality& quality) {
+// For points on the fitted mesh's triangles: where the first corner's closest point lies.
+std::vector<int> hints(const Comparison& both, const std::vector<int>& triangles) {
+    std::vector<int> result;
+    result.reserve(triangles.size());
+    for (const int t : triangles)
+        result.push_back(both.vertices[static_cast<std::size_t>(both.fitted.triangles(t, 0))].where.triangle);
+    return result;
+}
+
+void count_flips(const Comparison& both, Quality& quality) {
+    const Mesh &fitted = both.fitted, &target = both.target;
     Points centres(fitted.triangles.rows(), 3);
     for (Eigen::Index t = 0; t < centres.rows(); ++t)
         centres.row(t) = (fitted.positions.row(fitted.triangles(t, 0)) + fitted.positions.row(fitted.triangles(t, 1)) +
                           fitted.positions.row(fitted.triangles(t, 2))) /
                          3;
-    const std::vector<ClosestPoint> closest = surface.closest(centres);
-    const double d = diagonal(target.positions), tiny = 1e-14 * d * d;
+    std::vector<int> all(static_cast<std::size_t>(centres.rows()));
+    std::iota(all.begin(), all.end(), 0);
+    const std::vector<ClosestPoint> closest = both.on_target.closest(centres, hints(both, all));
+    const double tiny = 1e-14 * both.diagonal * both.diagonal;
     double flipped_area = 0, area = 0;
     for (Eigen::Index t = 0; t < centres.rows(); ++t) {
         const Point n = double_area_normal(fitted.positions, fitted.triangles, t);
@@ -128,21 +148,22 @@ Statistics statistics(std::vector<double> values) {
     return s;
 }
 
-Quality measure(const Mesh& source, const Mesh& fitted, const Mesh& target, const Points& truth,
-                std::span<const MarkerPair> markers, std::uint32_t seed) {
+Quality measure(const Mesh& source, const Comparison& both, const Points& truth, std::span<const MarkerPair> markers,
+                std::uint32_t seed) {
+    const Mesh &fitted = both.fitted, &target = both.target;
     require_same_mesh(source, fitted, truth);
-    const double percent = 100 / diagonal(target.positions);
-    const ClosestPointIndex on_target(target), on_fitted(fitted);
+    const double percent = 100 / both.diagonal;
 
     Quality q;
     q.vertices = fitted.positions.rows();
     q.triangles = fitted.triangles.rows();
-    const std::vector<double> at_vertices = distances(fitted.positions, on_target, percent);
-    for (const double d : at_vertices) q.eq7 += d * d * 1e-4; // percent to parts
-    q.vertex_to_target = statistics(at_vertices);
-    q.fitted_to_target = statistics(distances(surface_samples(fitted, seed), on_target, percent));
-    q.target_to_fitted = statistics(distances(surface_samples(target, seed), on_fitted, percent));
-    count_flips(fitted, target, on_target, q);
+    for (const ClosestPoint& c : both.vertices) q.eq7 += c.squared_distance / (both.diagonal * both.diagonal);
+    q.vertex_to_target = statistics(distances(both.vertices, both.diagonal));
+    const Samples on_fitted = surface_samples(fitted, seed), on_target = surface_samples(target, seed);
+    q.fitted_to_target = statistics(
+        distances(both.on_target.closest(on_fitted.points, hints(both, on_fitted.triangles)), both.diagonal));
+    q.target_to_fitted = statistics(distances(both.on_fitted.closest(on_target.points), both.diagonal));
+    count_flips(both, q);
     q.cuts = cuts(fitted), q.cuts_source = std::ssize(cuts(source)), q.cuts_target = std::ssize(cuts(target));
     q.symmetric_dirichlet = statistics(symmetric_dirichlet(source, fitted));
     if (truth.rows() > 0) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "meshtween/core/mesh.h"
+#include "meshtween/fit/comparison.h"
 #include "meshtween/io/markers.h"
 
 #include <array>
@@ -36,7 +37,11 @@ struct Quality {
 
 // `truth`: n x 3, where each vertex should be, empty if not known; `markers`: pairs to score, empty for none; `seed`:
 // of the sample points. Throws Error(argument) where the meshes do not belong together.
-Quality measure(const Mesh& source, const Mesh& fitted, const Mesh& target, const Points& truth = {},
+Quality measure(const Mesh& source, const Comparison& both, const Points& truth = {},
                 std::span<const MarkerPair> markers = {}, std::uint32_t seed = 12345);
+inline Quality measure(const Mesh& source, const Mesh& fitted, const Mesh& target, const Points& truth = {},
+                       std::span<const MarkerPair> markers = {}, std::uint32_t seed = 12345) {
+    return measure(source, Comparison(fitted, target), truth, markers, seed);
+}
 
 } // namespace meshtween

@@ -2,7 +2,8 @@
 
 #include "meshtween/core/error.h"
 #include "meshtween/core/parallel.h"
-#include "meshtween/fit/finish.h"
+#include "meshtween/fit/lift.h"
+#include "meshtween/fit/meet_markers.h"
 #include "meshtween/fit/refine.h"
 #include "meshtween/geometry/measure.h"
 #include "meshtween/geometry/subdivide.h"
@@ -137,8 +138,11 @@ RefinedFit refined_fit(const Mesh& source, const Mesh& target, std::span<const M
         result.added.push_back(result.left);
         result.source = std::move(finer), result.fit = std::move(next);
     }
-    if (result.fit.end != FitEnd::cancelled)
-        finish_fit(result.fit, result.source, target, moved_to(result.source, source, markers), options);
+    if (result.fit.end == FitEnd::cancelled) return result;
+    if (options.method == FitMethod::surface && !options.on_surface)
+        result.fit.positions = lifted({result.fit.positions, result.source.triangles, {}, {}, {}}, target);
+    if (options.markers_exact)
+        meet_markers(result.fit, result.source, target, moved_to(result.source, source, markers));
     return result;
 }
 

@@ -157,8 +157,9 @@ Points relaxed_around(const Shell& shell, const Points& positions, const std::ve
 
 } // namespace
 
-std::vector<int> flipped_triangles(const Points& positions, const Triangles& triangles, const FitTarget& target) {
-    return Facing(triangles, target, {}).into(positions);
+std::vector<int> flipped_triangles(const Points& positions, const Triangles& triangles, const FitTarget& target,
+                                   const std::vector<int>& places) {
+    return Facing(triangles, target, places).into(positions);
 }
 
 Settled settle(const Shell& shell, const Points& positions, const FitTarget& target, const SettleOptions& options) {
@@ -190,6 +191,7 @@ Settled settle(const Shell& shell, const Points& positions, const FitTarget& tar
     }
     std::set_difference(before.begin(), before.end(), result.flipped.begin(), result.flipped.end(),
                         std::back_inserter(result.mended));
+    result.places = std::move(goals.places);
     return result;
 }
 

@@ -20,6 +20,7 @@ struct Settled {
     std::vector<int> refused; // vertices that went only a part of the way, or none of it, ascending
     std::vector<int> mended;  // triangles that looked into the surface and no longer do, ascending
     std::vector<int> flipped; // triangles that still look into the surface, ascending
+    std::vector<int> places;  // n: the target's triangle on which each vertex was last looked for, or -1
 };
 
 // Each vertex to its closest compatible point, or a half, a quarter, ... or none of the way there where a triangle
@@ -27,7 +28,9 @@ struct Settled {
 // relaxed with their surroundings and set down again.
 Settled settle(const Shell& shell, const Points& positions, const FitTarget& target, const SettleOptions& options = {});
 
-// Triangles whose normal opposes the target's at the point closest to their centre, ascending.
-std::vector<int> flipped_triangles(const Points& positions, const Triangles& triangles, const FitTarget& target);
+// Triangles whose normal opposes the target's at the point closest to their centre, ascending. `places`, one a vertex
+// or none, are triangles of the target that are probably near.
+std::vector<int> flipped_triangles(const Points& positions, const Triangles& triangles, const FitTarget& target,
+                                   const std::vector<int>& places = {});
 
 } // namespace meshtween

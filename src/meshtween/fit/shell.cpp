@@ -8,6 +8,7 @@
 #include "meshtween/fit/shell.h"
 
 #include "meshtween/core/parallel.h"
+#include "meshtween/geometry/gather.h"
 #include "meshtween/geometry/measure.h"
 
 #include <Eigen/Geometry>
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace meshtween {
 namespace {
@@ -25,29 +27,12 @@ constexpr double least_edge_weight = 0.05, greatest_edge_weight = 5; // of cotan
 constexpr double greatest_stiffness = 64;                            // of a hinge's squared coefficients, likewise
 constexpr double normal_share = 0.2; // of the normal beside the edges in a frame: settles flat and open places
 
-double cotangent(const Point& u, const Point& v) {
-    return u.dot(v) / std::max(1e-14, u.cross(v).norm());
+std::size_t idx(std::ptrdiff_t i) {
+    return static_cast<std::size_t>(i);
 }
 
-void add_edge_weights(Shell& shell) {
-    const Lists& neighbours = shell.topology.neighbours;
-    shell.edge_weights.assign(neighbours.items.size(), 0);
-    const auto add = [&](int i, int j, double w) {
-        const auto list = neighbours[i];
-        const auto at = std::lower_bound(list.begin(), list.end(), j) - list.begin();
-        shell.edge_weights[static_cast<std::size_t>(neighbours.first[static_cast<std::size_t>(i)] + at)] += w;
-    };
-    for (Eigen::Index t = 0; t < shell.triangles.rows(); ++t)
-        for (int k = 0; k < 3; ++k) {
-            const int i = shell.triangles(t, k), j = shell.triangles(t, (k + 1) % 3),
-                      l = shell.triangles(t, (k + 2) % 3);
-            if (i == j) continue;
-            const double w =
-                cotangent(shell.rest.row(i) - shell.rest.row(l), shell.rest.row(j) - shell.rest.row(l)) / 2;
-            add(i, j, w);
-            add(j, i, w);
-        }
-    for (double& w : shell.edge_weights) w = std::clamp(w, least_edge_weight, greatest_edge_weight);
+double cotangent(const Point& u, const Point& v) {
+    return u.dot(v) / std::max(1e-14, u.cross(v).norm());
 }
 
 int across(const Triangles& triangles, int triangle, int a, int b) {
@@ -56,58 +41,85 @@ int across(const Triangles& triangles, int triangle, int a, int b) {
     return -1;
 }
 
-void add_hinges(Shell& shell, double area) {
-    for (const Edge& edge : shell.topology.edges) {
-        if (edge.count != 2) continue;
+void add_edge_weights(Shell& shell) {
+    const Lists& neighbours = shell.topology.neighbours;
+    shell.edge_weights.assign(neighbours.items.size(), 0);
+    parallel_for(std::ssize(shell.topology.edges), [&](std::ptrdiff_t e) {
+        const Edge& edge = shell.topology.edges[idx(e)];
         const auto [i, j] = edge.vertices;
-        const int k = across(shell.triangles, edge.triangles[0], i, j),
-                  l = across(shell.triangles, edge.triangles[1], i, j);
-        if (k < 0 || l < 0 || k == l) continue;
-        const Points& x = shell.rest;
-        const Point along = x.row(j) - x.row(i);
-        const double at_i0 = cotangent(along, x.row(k) - x.row(i)), at_i1 = cotangent(along, x.row(l) - x.row(i));
-        const double at_j0 = cotangent(-along, x.row(k) - x.row(j)), at_j1 = cotangent(-along, x.row(l) - x.row(j));
-        Hinge hinge{{i, j, k, l}, {at_j0 + at_j1, at_i0 + at_i1, -at_i0 - at_j0, -at_i1 - at_j1}, 0};
-        double squared = 0;
-        for (const double c : hinge.coefficients) squared += c * c;
-        if (squared > greatest_stiffness)
-            for (double& c : hinge.coefficients) c *= std::sqrt(greatest_stiffness / squared);
-        const double both =
-            triangle_area(x, shell.triangles, edge.triangles[0]) + triangle_area(x, shell.triangles, edge.triangles[1]);
-        const double floor = std::max(0.2 * along.squaredNorm(), 1e-14 * area);
-        hinge.weight = 3 / std::max(both, floor) / area;
-        shell.hinges.push_back(hinge);
-    }
+        double weight = 0;
+        for (const int t : edge.triangles) {
+            const int l = t < 0 ? -1 : across(shell.triangles, t, i, j);
+            if (l < 0) continue;
+            weight += cotangent(shell.rest.row(i) - shell.rest.row(l), shell.rest.row(j) - shell.rest.row(l)) / 2;
+        }
+        for (const auto& [from, to] : {std::pair(i, j), std::pair(j, i)}) {
+            const auto list = neighbours[from];
+            const auto at = std::lower_bound(list.begin(), list.end(), to) - list.begin();
+            shell.edge_weights[idx(neighbours.first[idx(from)] + at)] =
+                std::clamp(weight, least_edge_weight, greatest_edge_weight);
+        }
+    });
+}
+
+// Of weight 0 where the edge has not two triangles with a corner each.
+Hinge hinge(const Points& x, const Triangles& triangles, const Edge& edge, double area) {
+    if (edge.count != 2) return {};
+    const auto [i, j] = edge.vertices;
+    const int k = across(triangles, edge.triangles[0], i, j), l = across(triangles, edge.triangles[1], i, j);
+    if (k < 0 || l < 0 || k == l) return {};
+    const Point along = x.row(j) - x.row(i);
+    const double at_i0 = cotangent(along, x.row(k) - x.row(i)), at_i1 = cotangent(along, x.row(l) - x.row(i));
+    const double at_j0 = cotangent(-along, x.row(k) - x.row(j)), at_j1 = cotangent(-along, x.row(l) - x.row(j));
+    Hinge result{{i, j, k, l}, {at_j0 + at_j1, at_i0 + at_i1, -at_i0 - at_j0, -at_i1 - at_j1}, 0};
+    double squared = 0;
+    for (const double c : result.coefficients) squared += c * c;
+    if (squared > greatest_stiffness)
+        for (double& c : result.coefficients) c *= std::sqrt(greatest_stiffness / squared);
+    const double both = triangle_area(x, triangles, edge.triangles[0]) + triangle_area(x, triangles, edge.triangles[1]);
+    const double floor = std::max(0.2 * along.squaredNorm(), 1e-14 * area);
+    result.weight = 3 / std::max(both, floor) / area;
+    return result;
+}
+
+void add_hinges(Shell& shell, double area) {
+    shell.hinges.resize(shell.topology.edges.size());
+    parallel_for(std::ssize(shell.hinges), [&](std::ptrdiff_t e) {
+        shell.hinges[idx(e)] = hinge(shell.rest, shell.triangles, shell.topology.edges[idx(e)], area);
+    });
+    std::erase_if(shell.hinges, [](const Hinge& h) { return h.weight == 0; });
+    shell.vertex_hinges = gather(shell.rest.rows(), [&](const auto& put) {
+        for (std::size_t h = 0; h < shell.hinges.size(); ++h)
+            for (std::size_t k = 0; k < 4; ++k) put(shell.hinges[h].vertices[k], static_cast<int>(4 * h + k));
+    });
 }
 
 void add_forms(Shell& shell, double area) {
     const std::ptrdiff_t n = shell.rest.rows();
     const Lists& neighbours = shell.topology.neighbours;
-    std::vector<std::vector<int>> rows(static_cast<std::size_t>(n));
-    for (std::ptrdiff_t i = 0; i < n; ++i) {
-        const auto list = neighbours[i];
-        rows[static_cast<std::size_t>(i)].assign(list.begin(), list.end());
-    }
-    for (const Hinge& hinge : shell.hinges) {
-        rows[static_cast<std::size_t>(hinge.vertices[2])].push_back(hinge.vertices[3]);
-        rows[static_cast<std::size_t>(hinge.vertices[3])].push_back(hinge.vertices[2]);
-    }
-    const auto entries = std::make_shared<Pattern>(pattern(std::move(rows)));
+    const auto entries = std::make_shared<const Pattern>(pattern(gather(n, [&](const auto& put) {
+        for (int i = 0; i < n; ++i) {
+            put(i, i);
+            for (const int j : neighbours[i]) put(i, j);
+        }
+        for (const Hinge& h : shell.hinges) put(h.vertices[2], h.vertices[3]), put(h.vertices[3], h.vertices[2]);
+    })));
     shell.bending.assign(entries->column.size(), 0);
     shell.membrane.assign(entries->column.size(), 0);
-    for (const Hinge& hinge : shell.hinges)
-        for (std::size_t p = 0; p < 4; ++p)
+    parallel_for(n, [&](std::ptrdiff_t row) {
+        const int i = static_cast<int>(row);
+        for (const int at : shell.vertex_hinges[i]) {
+            const Hinge& h = shell.hinges[idx(at / 4)];
             for (std::size_t q = 0; q < 4; ++q)
-                shell.bending[entries->at(hinge.vertices[p], hinge.vertices[q])] +=
-                    hinge.weight * hinge.coefficients[p] * hinge.coefficients[q];
-    for (std::ptrdiff_t i = 0; i < n; ++i)
-        for (int e = neighbours.first[static_cast<std::size_t>(i)];
-             e < neighbours.first[static_cast<std::size_t>(i) + 1]; ++e) {
-            const double w = shell.edge_weights[static_cast<std::size_t>(e)] / area;
-            const int j = neighbours.items[static_cast<std::size_t>(e)];
-            shell.membrane[entries->at(static_cast<int>(i), j)] -= w;
-            shell.membrane[static_cast<std::size_t>(entries->diagonal[static_cast<std::size_t>(i)])] += w;
+                shell.bending[entries->at(i, h.vertices[q])] +=
+                    h.weight * h.coefficients[idx(at % 4)] * h.coefficients[q];
         }
+        for (int e = neighbours.first[idx(i)]; e < neighbours.first[idx(i) + 1]; ++e) {
+            const double w = shell.edge_weights[idx(e)] / area;
+            shell.membrane[entries->at(i, neighbours.items[idx(e)])] -= w;
+            shell.membrane[idx(entries->diagonal[idx(i)])] += w;
+        }
+    });
     shell.pattern = entries;
 }
 
@@ -228,19 +240,23 @@ std::vector<Matrix3d> calmed(std::vector<Matrix3d> frames, double angle) {
 
 Points rest_force(const Shell& shell, const std::vector<Matrix3d>& frames, double bending_weight,
                   double membrane_weight) {
-    // Each vertex gathers from its own entries of the forms: E's matrix times the rest shape, entry by entry, with the
-    // frame of the pair. For hinges the frame is the mean over the edge's ends; that needs the hinge itself, so those
-    // are summed in order.
+    // Each vertex gathers: from its hinges, with the mean frame of the edge's ends, and from its own entries of the
+    // membrane's matrix times the rest shape, with the mean frame of the pair.
     Points force = Points::Zero(shell.rest.rows(), 3);
-    if (bending_weight > 0)
-        for (const Hinge& h : shell.hinges) {
+    if (bending_weight > 0) {
+        Points turned(std::ssize(shell.hinges), 3);
+        parallel_for(turned.rows(), [&](std::ptrdiff_t e) {
+            const Hinge& h = shell.hinges[idx(e)];
             Point jump(0, 0, 0);
             for (std::size_t k = 0; k < 4; ++k) jump += h.coefficients[k] * shell.rest.row(h.vertices[k]);
-            const Matrix3d& a = frames[static_cast<std::size_t>(h.vertices[0])];
-            const Matrix3d& b = frames[static_cast<std::size_t>(h.vertices[1])];
-            const Point turned = 0.5 * bending_weight * h.weight * jump * (a + b).transpose();
-            for (std::size_t k = 0; k < 4; ++k) force.row(h.vertices[k]) += h.coefficients[k] * turned;
-        }
+            const Matrix3d &a = frames[idx(h.vertices[0])], &b = frames[idx(h.vertices[1])];
+            turned.row(e) = 0.5 * bending_weight * h.weight * jump * (a + b).transpose();
+        });
+        parallel_for(shell.rest.rows(), [&](std::ptrdiff_t i) {
+            for (const int at : shell.vertex_hinges[i])
+                force.row(i) += shell.hinges[idx(at / 4)].coefficients[idx(at % 4)] * turned.row(at / 4);
+        });
+    }
     if (membrane_weight > 0)
         parallel_for(shell.rest.rows(), [&](std::ptrdiff_t i) {
             const auto list = shell.topology.neighbours[i];

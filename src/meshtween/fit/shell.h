@@ -16,7 +16,7 @@ namespace meshtween {
 struct Hinge {
     std::array<int, 4> vertices{}; // the edge's ends, then the corners across it
     std::array<double, 4> coefficients{};
-    double weight = 0; // 3 / (area of both triangles), over the whole mesh's area
+    double weight = 0; // 3 / (area of both triangles), over the whole mesh's area; 0 only where it is none
 };
 
 // Energies are means over the surface, so that they do not depend on how finely it is cut into triangles.
@@ -28,6 +28,7 @@ struct Shell {
     std::vector<double> area;               // n: share of the whole area
     std::vector<double> edge_weights;       // one an item of topology.neighbours: cotangent weights, kept positive
     std::vector<Hinge> hinges;              // one an inner edge
+    Lists vertex_hinges;                    // a list a vertex: 4 h + k where it is the k-th of hinge h, ascending
     std::shared_ptr<const Pattern> pattern; // entries of both quadratic forms below
     std::vector<double> bending;            // sum over hinges of weight coefficients coefficients^T
     std::vector<double> membrane;           // the cotangent Laplacian over the whole area

@@ -2,13 +2,14 @@
 // bending falls as the fourth power of a length, from a fifth of the target to less than a thousandth; in the limit the
 // shell lies on the surface and its bending alone says where along it each vertex goes.
 //
-// The stages and their papers are in align, shell, refine, settle, untangle and crease.
+// The stages and their papers are in align, shell, refine, settle, untangle, crease and lift.
 #include "meshtween/fit/surface_fit.h"
 
 #include "meshtween/core/error.h"
 #include "meshtween/core/parallel.h"
 #include "meshtween/fit/align.h"
 #include "meshtween/fit/crease.h"
+#include "meshtween/fit/lift.h"
 #include "meshtween/fit/marker_twins.h"
 #include "meshtween/fit/refine.h"
 #include "meshtween/fit/settle.h"
@@ -117,12 +118,13 @@ Frame frame_of(const Mesh& source, const Mesh& target, std::span<const Marker> m
 }
 
 // From the target on the grid to the target itself, for the vertices on it.
-void leave_grid(Points& x, const FitTarget& target, const Points& itself) {
+void leave_grid(Points& x, const FitTarget& target, const Points& itself, const std::vector<int>& places) {
     constexpr double on_it = 1e-7;
     parallel_for(
         x.rows(),
         [&](Eigen::Index i) {
-            const ClosestPoint there = target.index.closest(Point(x.row(i)));
+            const ClosestPoint there =
+                target.index.closest(Point(x.row(i)), places.empty() ? -1 : places[static_cast<std::size_t>(i)]);
             if (there.squared_distance < on_it * on_it) x.row(i) = position(itself, target.triangles, there.where);
         },
         256);
@@ -168,28 +170,46 @@ Points on_finest(const ShellLevels& shells, std::size_t level, Points x) {
     return x;
 }
 
-// Onto the surface, what is turned over or cut mended, vertices onto creases. False where the progress said to stop.
-bool finish(TangleSearch& search, std::span<const Pin> pins, const Progress& progress, Points& x, FitResult& result) {
-    Settled settled = settle(search.shell, x, search.target);
-    result.refused_steps = std::ssize(settled.refused);
-    result.refused = std::move(settled.refused);
-    Untangled untangled = untangle(search, settled.positions, pins, progress);
-    x = creased(search, untangled.positions, untangled.left);
-    result.patches = untangled.patches;
-    const std::vector<std::array<int, 2>>& cuts = untangled.left.cuts;
-    const std::vector<int>& left = untangled.left.flips;
-    std::vector<int> seen;
-    std::set_union(settled.mended.begin(), settled.mended.end(), untangled.before.flips.begin(),
-                   untangled.before.flips.end(), std::back_inserter(seen));
-    std::set_difference(seen.begin(), seen.end(), left.begin(), left.end(), std::back_inserter(result.mended));
-    if (!left.empty())
+// What the last steps leave.
+struct Landed {
+    Points positions;        // on the surface
+    Points lift;             // how far from there each vertex goes
+    std::vector<int> places; // the target's triangle at each vertex
+    bool cancelled = false;
+};
+
+void note_faults(const std::vector<int>& flips, const std::vector<std::array<int, 2>>& cuts, FitResult& result) {
+    if (!flips.empty())
         result.notes.push_back(fmt::format("{} triangles look into the target's surface, the first of them {}",
-                                           left.size(), left.front()));
+                                           flips.size(), flips.front()));
     if (!cuts.empty())
         result.notes.push_back(fmt::format("{} pairs of triangles cut each other where neither shape does, the first "
                                            "of them {} and {}",
                                            cuts.size(), cuts[0][0], cuts[0][1]));
-    return !untangled.cancelled;
+}
+
+// Onto the surface, what is turned over or cut mended, vertices onto creases, triangles onto the surface in the mean.
+Landed land(TangleSearch& search, std::span<const Pin> pins, const Points& x, bool on_surface, const Progress& progress,
+            FitResult& result) {
+    const Shell& shell = search.shell;
+    Settled settled = settle(shell, x, search.target);
+    result.refused_steps = std::ssize(settled.refused);
+    result.refused = std::move(settled.refused);
+    const Tangles faults = tangles(search, settled.positions, settled.flipped);
+    const Untangled untangled = untangle(search, settled.positions, faults, pins, part_of(progress, 0, 0.5));
+    result.patches = untangled.patches;
+    Landed landed{creased(search, untangled.positions, untangled.left), Points::Zero(x.rows(), 3),
+                  std::move(settled.places), untangled.cancelled || !keep_going(progress, 0.5, "lifting")};
+    if (!on_surface && !landed.cancelled)
+        landed.lift = lifted(landed.positions, shell.triangles, shell.topology, search.target) - landed.positions;
+    const std::vector<int> flips =
+        flipped_triangles(landed.positions + landed.lift, shell.triangles, search.target, landed.places);
+    std::vector<int> seen;
+    std::set_union(settled.mended.begin(), settled.mended.end(), faults.flips.begin(), faults.flips.end(),
+                   std::back_inserter(seen));
+    std::set_difference(seen.begin(), seen.end(), flips.begin(), flips.end(), std::back_inserter(result.mended));
+    note_faults(flips, untangled.left.cuts, result);
+    return landed;
 }
 
 void measure_markers(const Points& x, const Mesh& source, std::span<const Marker> markers, const Points& goals,
@@ -240,7 +260,7 @@ FitResult surface_fit(const Mesh& source, const Mesh& target_mesh, std::span<con
     for (std::size_t k = levels; k-- > 0;) {
         RelaxMemory memory;
         for (int round = 0; round < rounds_a_level; ++round, weights.length *= rate, weights.slide *= slide_rate) {
-            going = going && keep_going(progress, 0.15 + 0.8 * done / work, "fitting");
+            going = going && keep_going(progress, 0.15 + 0.75 * done / work, "fitting");
             if (!going) break;
             Points relaxed = relax(shells, k, x, target, weights, memory);
             x = k == 0 ? held_back(search, x, relaxed) : std::move(relaxed);
@@ -254,13 +274,16 @@ FitResult surface_fit(const Mesh& source, const Mesh& target_mesh, std::span<con
     }
     const std::span<const Pin> held =
         options.marker_weight > 0 ? std::span<const Pin>(shells.pins[0]).first(markers.size()) : std::span<const Pin>();
-    if (going) going = finish(search, held, part_of(progress, 0.95, 1), x, result);
+    Landed landed{x, Points::Zero(x.rows(), 3), {}};
+    if (going) landed = land(search, held, x, options.on_surface, part_of(progress, 0.9, 1), result);
+    x = std::move(landed.positions);
     for (Eigen::Index i = 0; i < x.rows(); ++i) // vertices of no triangle go where the similarity takes them
         if (shells.shells[0].topology.vertex_triangles[i].empty()) x.row(i) = rest.row(i);
     measure_markers(x, source, markers, goals, result);
-    leave_grid(x, target, in_frame);
+    leave_grid(x, target, in_frame, landed.places);
+    x += landed.lift;
     result.positions = frame.out(x);
-    result.end = going ? FitEnd::converged : FitEnd::cancelled;
+    result.end = going && !landed.cancelled ? FitEnd::converged : FitEnd::cancelled;
     keep_going(progress, 1, "done");
     return result;
 }

@@ -6,8 +6,8 @@
 namespace meshtween {
 
 // The stages one after the other: align, shell_levels, relax with the markers alone, relax level by level, settle,
-// untangle. Any number of markers; with none the start is a guess from the principal axes, which a note tells. Same
-// arguments and errors as fit().
+// untangle, crease, lift. Any number of markers; with none the start is a guess from the principal axes, which a note
+// tells. Same arguments and errors as fit().
 FitResult surface_fit(const Mesh& source, const Mesh& target, std::span<const Marker> markers,
                       const FitOptions& options = {}, const Progress& progress = {});
 

@@ -97,7 +97,11 @@ Pairs new_cuts(TangleSearch& search, const Points& positions, const std::vector<
 }
 
 Tangles tangles(TangleSearch& search, const Points& positions) {
-    Tangles result{flipped_triangles(positions, search.shell.triangles, search.target), new_cuts(search, positions)};
+    return tangles(search, positions, flipped_triangles(positions, search.shell.triangles, search.target));
+}
+
+Tangles tangles(TangleSearch& search, const Points& positions, std::vector<int> flipped) {
+    Tangles result{std::move(flipped), new_cuts(search, positions)};
     std::erase_if(result.flips, [&](int t) { return at_cut(search, positions, t); });
     return result;
 }

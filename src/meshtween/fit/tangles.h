@@ -36,6 +36,8 @@ struct Tangles {
     std::size_t count() const { return flips.size() + cuts.size(); }
 };
 Tangles tangles(TangleSearch& search, const Points& positions);
+// Where the triangles that look into the target are known already, ascending.
+Tangles tangles(TangleSearch& search, const Points& positions, std::vector<int> flipped);
 
 // The same after the vertices of the `moved` triangles, a flag each, have moved.
 Tangles tangles(TangleSearch& search, const Points& positions, const Tangles& before, const std::vector<char>& moved);

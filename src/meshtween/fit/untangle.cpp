@@ -226,9 +226,9 @@ Points eased(TangleSearch& search, const Points& positions) {
     return best;
 }
 
-Untangled untangle(TangleSearch& search, const Points& positions, std::span<const Pin> pins, const Progress& progress) {
-    Untangled result{positions, tangles(search, positions), {}};
-    result.left = result.before;
+Untangled untangle(TangleSearch& search, const Points& positions, const Tangles& faults, std::span<const Pin> pins,
+                   const Progress& progress) {
+    Untangled result{positions, faults};
     if (result.left.count() == 0) return result;
     Cover cover{target_samples(search.target), {}};
     cover.triangles = answering(search.shell, positions, cover.samples);

@@ -22,14 +22,15 @@ Points held_back(TangleSearch& search, const Points& before, const Points& now);
 
 struct Untangled {
     Points positions;
-    Tangles before, left;
+    Tangles left;
     int patches = 0;        // that were laid out anew and are better for it
     bool cancelled = false; // the progress said so: the positions are the best so far
 };
 
-// Each connected patch of faults and the rings around it are laid out anew (unfolded) with all else held; where that
-// leaves fewer faults it is kept, then a wider patch is tried. A mesh without faults comes back as it was.
-Untangled untangle(TangleSearch& search, const Points& positions, std::span<const Pin> pins,
+// Each connected patch of `faults` (all that tangles() finds) and the rings around it are laid out anew (unfolded) with
+// all else held; where that leaves fewer faults it is kept, then a wider patch is tried. A mesh without faults comes
+// back as it was.
+Untangled untangle(TangleSearch& search, const Points& positions, const Tangles& faults, std::span<const Pin> pins,
                    const Progress& progress = {});
 
 } // namespace meshtween

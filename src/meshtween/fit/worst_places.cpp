@@ -2,7 +2,6 @@
 
 #include "meshtween/core/parallel.h"
 #include "meshtween/geometry/measure.h"
-#include "meshtween/search/closest_point.h"
 
 #include <algorithm>
 #include <array>
@@ -54,22 +53,6 @@ void append(Points& points, const Point& point) {
     points.row(points.rows() - 1) = point;
 }
 
-// The target's point furthest from the fitted mesh, of those that the vertex would have to answer for.
-Point uncovered_point(const Mesh& fitted, const Mesh& target, int vertex) {
-    const ClosestPointIndex index(fitted);
-    const std::vector<ClosestPoint> closest = index.closest(target.positions);
-    Point best = fitted.positions.row(vertex);
-    double furthest = -1;
-    for (std::size_t i = 0; i < closest.size(); ++i) {
-        int corner = 0;
-        closest[i].where.barycentric.maxCoeff(&corner);
-        if (fitted.triangles(closest[i].where.triangle, corner) != vertex) continue;
-        if (closest[i].squared_distance > furthest)
-            furthest = closest[i].squared_distance, best = target.positions.row(static_cast<Eigen::Index>(i));
-    }
-    return best;
-}
-
 } // namespace
 
 std::string_view name_of(PlaceFault fault) {
@@ -115,9 +98,9 @@ std::vector<WorstPlace> worst_places(const Mesh& fitted, const std::vector<Worst
     return chosen;
 }
 
-std::vector<MarkerSuggestion> suggest_markers(const Mesh& source, const Mesh& fitted, const Mesh& target,
-                                              const Correspondence& map, const std::vector<WorstPlace>& faults,
-                                              std::span<const Marker> markers, std::size_t count) {
+std::vector<MarkerSuggestion> suggest_markers(const Mesh& source, const Mesh& target, const Correspondence& map,
+                                              const std::vector<WorstPlace>& faults, std::span<const Marker> markers,
+                                              std::size_t count) {
     const double size = diagonal(source.positions);
     Points taken(0, 3);
     for (const Marker& m : markers) append(taken, position(source.positions, source.triangles, m.source));
@@ -141,7 +124,7 @@ std::vector<MarkerSuggestion> suggest_markers(const Mesh& source, const Mesh& fi
         if (best < 0) break;
         const WorstPlace& f = faults[idx(best)];
         MarkerSuggestion s{f, position(target.positions, target.triangles, map.places[idx(best)]), alone[best]};
-        if (f.fault == PlaceFault::uncovered && f.badness >= 1) s.target = uncovered_point(fitted, target, best);
+        if (f.fault == PlaceFault::uncovered && f.badness >= 1) s.target = map.uncovered_at.row(best);
         chosen.push_back(s);
         for (Eigen::Index i = 0; i < apart.size(); ++i)
             apart[i] = std::min(apart[i], (source.positions.row(i) - source.positions.row(best)).norm() / size);

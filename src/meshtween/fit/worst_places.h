@@ -45,8 +45,8 @@ struct MarkerSuggestion {
 
 // "Place your next marker here", the most useful first: bad places far from markers, then places far from all markers.
 // None is nearer than 3 % of the diagonal to a marker or than 5 % to another suggestion.
-std::vector<MarkerSuggestion> suggest_markers(const Mesh& source, const Mesh& fitted, const Mesh& target,
-                                              const Correspondence& map, const std::vector<WorstPlace>& faults,
-                                              std::span<const Marker> markers, std::size_t count = 5);
+std::vector<MarkerSuggestion> suggest_markers(const Mesh& source, const Mesh& target, const Correspondence& map,
+                                              const std::vector<WorstPlace>& faults, std::span<const Marker> markers,
+                                              std::size_t count = 5);
 
 } // namespace meshtween

@@ -1,6 +1,7 @@
 // Elements are named by their numbers, counted from 0, as everywhere in the library.
 #include "meshtween/geometry/check.h"
 
+#include "meshtween/core/parallel.h"
 #include "meshtween/geometry/measure.h"
 #include "meshtween/geometry/topology.h"
 
@@ -135,20 +136,47 @@ private:
         if (bad.any()) add(Severity::warning, bad.count, bad.with("face", "faces", "has no area", "have no area"));
     }
 
-    void check_duplicate_faces() {
-        std::vector<std::pair<std::array<int, 3>, Eigen::Index>> faces;
-        for (Eigen::Index t = 0; t < t_.rows(); ++t) {
+    // Faces by their corners in order: those whose first is v.
+    using Face = std::pair<std::array<int, 3>, int>;
+    std::vector<Face> faces_from(int v) const {
+        std::vector<Face> faces;
+        for (const int t : top_.vertex_triangles[v]) {
             std::array<int, 3> key{t_(t, 0), t_(t, 1), t_(t, 2)};
             std::sort(key.begin(), key.end());
-            faces.emplace_back(key, t);
+            if (key[0] == v) faces.emplace_back(key, t);
         }
         std::sort(faces.begin(), faces.end());
+        faces.erase(std::unique(faces.begin(), faces.end()), faces.end()); // v twice in a face
+        return faces;
+    }
+
+    static bool each_once(const std::vector<Face>& faces) {
+        return std::adjacent_find(faces.begin(), faces.end(),
+                                  [](const Face& a, const Face& b) { return a.first == b.first; }) == faces.end();
+    }
+
+    // Ascending.
+    template <typename Test>
+    std::vector<int> vertices_where(const Test& test) const {
+        std::vector<char> flag(static_cast<std::size_t>(mesh_.positions.rows()));
+        parallel_for(mesh_.positions.rows(),
+                     [&](Eigen::Index v) { flag[static_cast<std::size_t>(v)] = test(static_cast<int>(v)) ? 1 : 0; });
+        std::vector<int> result;
+        for (std::size_t v = 0; v < flag.size(); ++v)
+            if (flag[v] != 0) result.push_back(static_cast<int>(v));
+        return result;
+    }
+
+    void check_duplicate_faces() {
         Found<std::string> bad;
-        for (std::size_t i = 1, first = 0; i < faces.size(); ++i) {
-            if (faces[i].first != faces[first].first)
-                first = i;
-            else
-                bad.add(fmt::format("{} as {}", faces[i].second, faces[first].second));
+        for (const int v : vertices_where([&](int v) { return !each_once(faces_from(v)); })) {
+            const auto faces = faces_from(v);
+            for (std::size_t i = 1, first = 0; i < faces.size(); ++i) {
+                if (faces[i].first != faces[first].first)
+                    first = i;
+                else
+                    bad.add(fmt::format("{} as {}", faces[i].second, faces[first].second));
+            }
         }
         if (bad.any())
             add(Severity::warning, bad.count,
@@ -247,8 +275,7 @@ private:
 
     void check_vertex_fans() {
         Found<int> bad;
-        for (int v = 0; v < mesh_.positions.rows(); ++v)
-            if (!is_one_fan(v)) bad.add(v);
+        for (const int v : vertices_where([&](int v) { return !is_one_fan(v); })) bad.add(v);
         if (!bad.any()) return;
         manifold_ = false;
         add(Severity::warning, bad.count,

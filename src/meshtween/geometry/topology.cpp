@@ -1,6 +1,7 @@
 #include "meshtween/geometry/topology.h"
 
 #include "meshtween/core/parallel.h"
+#include "meshtween/geometry/gather.h"
 
 #include <algorithm>
 #include <map>
@@ -8,25 +9,6 @@
 #include <utility>
 
 namespace meshtween {
-namespace {
-
-// Counting sort of (owner, item) pairs into lists; items stay in the order in which they come.
-template <typename ForEachPair>
-Lists gather(std::ptrdiff_t owners, const ForEachPair& for_each_pair) {
-    Lists lists;
-    lists.first.assign(static_cast<std::size_t>(owners) + 1, 0);
-    for_each_pair([&](int owner, int) { ++lists.first[static_cast<std::size_t>(owner) + 1]; });
-    for (std::size_t i = 1; i < lists.first.size(); ++i) lists.first[i] += lists.first[i - 1];
-    lists.items.resize(static_cast<std::size_t>(lists.first.back()));
-    std::vector<int> next(lists.first.begin(), lists.first.end() - 1);
-    for_each_pair([&](int owner, int item) {
-        lists.items[static_cast<std::size_t>(next[static_cast<std::size_t>(owner)]++)] = item;
-    });
-    return lists;
-}
-
-} // namespace
-
 Topology topology(Eigen::Index vertex_count, const Triangles& triangles) {
     Topology result;
     // Half-edges (3 t + k) by the smaller of their vertices, then by the larger: those of one edge are together.

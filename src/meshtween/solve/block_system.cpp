@@ -7,6 +7,7 @@
 #include "meshtween/solve/v_cycle.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace meshtween {
 namespace {
@@ -36,18 +37,25 @@ std::size_t Pattern::at(int row, int col) const {
     return static_cast<std::size_t>(std::lower_bound(begin, end, col) - column.begin());
 }
 
-Pattern pattern(std::vector<std::vector<int>> rows) {
+Pattern pattern(Lists rows) {
+    const std::ptrdiff_t n = rows.size();
     Pattern result;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        auto& row = rows[i];
-        row.push_back(static_cast<int>(i));
-        std::sort(row.begin(), row.end());
-        row.erase(std::unique(row.begin(), row.end()), row.end());
-        const auto own = std::lower_bound(row.begin(), row.end(), static_cast<int>(i)) - row.begin();
-        result.diagonal.push_back(static_cast<int>(result.column.size()) + static_cast<int>(own));
-        result.column.insert(result.column.end(), row.begin(), row.end());
-        result.first.push_back(static_cast<int>(result.column.size()));
-    }
+    result.first.assign(static_cast<std::size_t>(n) + 1, 0);
+    const auto row = [&](std::ptrdiff_t i) { return rows.items.begin() + rows.first[static_cast<std::size_t>(i)]; };
+    parallel_for(n, [&](std::ptrdiff_t i) {
+        std::sort(row(i), row(i + 1));
+        result.first[static_cast<std::size_t>(i) + 1] = static_cast<int>(std::unique(row(i), row(i + 1)) - row(i));
+    });
+    std::partial_sum(result.first.begin(), result.first.end(), result.first.begin());
+    result.column.resize(static_cast<std::size_t>(result.first.back()));
+    result.diagonal.resize(static_cast<std::size_t>(n));
+    parallel_for(n, [&](std::ptrdiff_t i) {
+        const int begin = result.first[static_cast<std::size_t>(i)],
+                  end = result.first[static_cast<std::size_t>(i) + 1];
+        std::copy_n(row(i), end - begin, result.column.begin() + begin);
+        result.diagonal[static_cast<std::size_t>(i)] =
+            static_cast<int>(result.at(static_cast<int>(i), static_cast<int>(i)));
+    });
     return result;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "meshtween/core/mesh.h"
+#include "meshtween/geometry/topology.h"
 
 #include <Eigen/Core>
 
@@ -18,8 +19,8 @@ struct Pattern {
     std::size_t at(int row, int col) const; // the entry must exist
 };
 
-// Sorts and rids of doubles the lists of columns, a list a row; diagonals are added.
-Pattern pattern(std::vector<std::vector<int>> rows);
+// Columns, a list a row with its diagonal among them, sorted and rid of doubles.
+Pattern pattern(Lists rows);
 
 // Block (i, j) is values(i, j) times the identity, plus blocks[i] where i = j.
 struct BlockSystem {

@@ -1,0 +1,21 @@
+// A fitted mesh beside its target: the searches that measuring a fit and mapping it both need, made once.
+#pragma once
+
+#include "meshtween/core/mesh.h"
+#include "meshtween/search/closest_point.h"
+
+#include <vector>
+
+namespace meshtween {
+
+struct Comparison {
+    // Both must outlive it. Throws Error(computation) where one has no triangles.
+    Comparison(const Mesh& fitted, const Mesh& target);
+
+    const Mesh &fitted, &target;
+    double diagonal; // the target's
+    ClosestPointIndex on_fitted, on_target;
+    std::vector<ClosestPoint> vertices; // the fitted mesh's: the closest place of the target
+};
+
+} // namespace meshtween
