@@ -90,8 +90,10 @@ std::vector<MarkerTwin> marker_twins(const Points& source, const Triangles& sour
         const double a = worse(*planes.source, s, there.position), b = worse(*planes.target, t, beyond.position);
         const double squares = a * a + b * b + there.squared_distance + beyond.squared_distance;
         const double weight = std::exp(-squares / (alike * alike)), slack = std::hypot(2 * std::sqrt(squares), common);
-        const double near = std::min(nearest(on_source, there.position), nearest(on_target, beyond.position));
-        if (weight < least_weight || near < std::max(apart, slack / greatest_strain)) continue;
+        const double room = slack / greatest_strain;
+        if (weight < least_weight || nearest(on_source, there.position) < std::max(apart, room) ||
+            nearest(on_target, beyond.position) < room)
+            continue;
         result.push_back({there.where, beyond.position, weight, slack});
     }
     return result;
