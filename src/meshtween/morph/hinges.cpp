@@ -221,6 +221,38 @@ std::vector<char> entangled(const FaceField& faces, const Patches& patches) {
     return flags;
 }
 
+std::vector<char> misled(const std::vector<char>& entangled, const Points& from, const Points& to,
+                         const Triangles& triangles, const Topology& topology, const FaceField& faces,
+                         const Patches& patches, const LocalEdges& half_edges, const Quaternions& half) {
+    std::vector<char> flags(entangled.size(), 0);
+    std::vector<int> queue;
+    const auto take = [&](int p) {
+        if (!entangled[idx(p)] || flags[idx(p)]) return;
+        flags[idx(p)] = 1;
+        queue.push_back(p);
+    };
+    for (const Edge& edge : topology.edges) {
+        if (edge.triangles[1] < 0) continue;
+        const int p = patches.of_triangle[idx(edge.triangles[0])], q = patches.of_triangle[idx(edge.triangles[1])];
+        if ((!entangled[idx(p)] || flags[idx(p)]) && (!entangled[idx(q)] || flags[idx(q)])) continue;
+        const std::optional<Hinge> hinge = hinge_at(edge, from, to, triangles, faces);
+        if (!hinge) continue;
+        const Eigen::Quaterniond said(between(*hinge, half_edges(hinge->first), half_edges(hinge->second), 0.5));
+        if (said.angularDistance(half[idx(hinge->first)].conjugate() * half[idx(hinge->second)]) <=
+            std::numbers::pi / 2)
+            continue;
+        take(p), take(q);
+    }
+    std::vector<std::vector<int>> neighbours(flags.size());
+    for (const PatchLink& link : patches.links) {
+        neighbours[idx(link.first)].push_back(link.second);
+        neighbours[idx(link.second)].push_back(link.first);
+    }
+    for (std::size_t head = 0; head < queue.size(); ++head)
+        for (const int p : neighbours[idx(queue[head])]) take(p);
+    return flags;
+}
+
 // Seen from either end of a link the other patch has turned half its way as the hinge says and the triangles' own
 // halves against their patches. The short way round and the long one are half a turn apart there.
 Turns way_round(Turns turns, const Points& from, const Points& to, const Triangles& triangles, const Topology& topology,

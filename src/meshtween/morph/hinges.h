@@ -40,6 +40,12 @@ struct Hinges {
 // rotations at both ends do not say which way round they went: a flag a patch.
 std::vector<char> entangled(const FaceField& faces, const Patches& patches);
 
+// Of patches that are entangled (a flag each), those that hang together with a place where rotations half-way (m) say
+// otherwise than the angle across an edge, by more than a right angle: elsewhere the rotations have it right.
+std::vector<char> misled(const std::vector<char>& entangled, const Points& from, const Points& to,
+                         const Triangles& triangles, const Topology& topology, const FaceField& faces,
+                         const Patches& patches, const LocalEdges& half_edges, const Quaternions& half);
+
 // The same turns, but which way round patches turn that turn far against each other is as the hinges on their borders
 // say. `half_edges` are of half the way.
 Turns way_round(Turns turns, const Points& from, const Points& to, const Triangles& triangles, const Topology& topology,

@@ -233,15 +233,18 @@ void turn_back(const Quaternions& rotation, const Points& shape, const Triangles
 
 // Where patches are entangled, the angles across edges say which way round they and their triangles turn.
 void follow_hinges(Prepared& s, const Topology& top, const FaceField& faces, const Patches& parts) {
-    const std::vector<char> flags = entangled(faces, parts);
-    if (std::none_of(flags.begin(), flags.end(), [](char flag) { return flag; })) return;
+    std::vector<char> flags = entangled(faces, parts);
+    const auto none = [&] { return std::none_of(flags.begin(), flags.end(), [](char flag) { return flag; }); };
+    if (none()) return;
+    const auto half_edges = [&](int t) { return local_edges(s, t, 0.5); };
+    const Times times = same_times(s, 0.5);
+    s.turns = way_round(std::move(s.turns), s.from, s.to, s.triangles, top, faces, parts, half_edges);
+    const Quaternions half = face_rotations(s.turns, patch_rotations(s.turns, times.patches), times.triangles);
+    flags = misled(flags, s.from, s.to, s.triangles, top, faces, parts, half_edges, half);
+    if (none()) return;
     std::vector<char> inside;
     for (const int p : parts.of_triangle) inside.push_back(flags[static_cast<std::size_t>(p)]);
-    const auto half_edges = [&](int t) { return local_edges(s, t, 0.5); };
-    const Times half = same_times(s, 0.5);
-    s.turns = way_round(std::move(s.turns), s.from, s.to, s.triangles, top, faces, parts, half_edges);
-    s.hinges = hinges(s.from, s.to, s.triangles, top, faces, inside, half_edges,
-                      face_rotations(s.turns, patch_rotations(s.turns, half.patches), half.triangles));
+    s.hinges = hinges(s.from, s.to, s.triangles, top, faces, inside, half_edges, half);
 }
 
 // Leads the path through a middle shape with the lengths that edges should have there, where they lack much.
