@@ -238,9 +238,7 @@ std::vector<char> misled(const std::vector<char>& entangled, const Points& from,
         const std::optional<Hinge> hinge = hinge_at(edge, from, to, triangles, faces);
         if (!hinge) continue;
         const Eigen::Quaterniond said(between(*hinge, half_edges(hinge->first), half_edges(hinge->second), 0.5));
-        if (said.angularDistance(half[idx(hinge->first)].conjugate() * half[idx(hinge->second)]) <=
-            std::numbers::pi / 2)
-            continue;
+        if (said.angularDistance(half[idx(hinge->first)].conjugate() * half[idx(hinge->second)]) <= third / 2) continue;
         take(p), take(q);
     }
     std::vector<std::vector<int>> neighbours(flags.size());

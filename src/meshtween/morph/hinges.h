@@ -41,7 +41,7 @@ struct Hinges {
 std::vector<char> entangled(const FaceField& faces, const Patches& patches);
 
 // Of patches that are entangled (a flag each), those that hang together with a place where rotations half-way (m) say
-// otherwise than the angle across an edge, by more than a right angle: elsewhere the rotations have it right.
+// otherwise than the angle across an edge, by more than a sixth of half a turn: elsewhere the rotations have it right.
 std::vector<char> misled(const std::vector<char>& entangled, const Points& from, const Points& to,
                          const Triangles& triangles, const Topology& topology, const FaceField& faces,
                          const Patches& patches, const LocalEdges& half_edges, const Quaternions& half);
