@@ -187,6 +187,36 @@ TEST(SurfaceFit, SharpEdgesGetVertices) {
     EXPECT_TRUE(fitted.notes.empty()) << fitted.notes[0];
 }
 
+// Two legs below a ball, so long; markers on the ball alone.
+Mesh legged(double length) {
+    Mesh mesh = sphere(4);
+    const std::array<Point, 2> legs{Point(0.5, -1, 0.2).normalized(), Point(-0.5, -1, 0).normalized()};
+    for (auto row : mesh.positions.rowwise()) {
+        double grown = 1;
+        for (const Point& leg : legs)
+            grown += length * std::exp(-std::pow(std::acos(std::min(1.0, row.dot(leg))) / 0.25, 4));
+        row *= grown;
+    }
+    return mesh;
+}
+
+TEST(SurfaceFit, LegsWithoutMarkersReachTheGround) {
+    const Mesh source = legged(0.4);
+    Mesh target = legged(2);
+    std::vector<Marker> markers;
+    for (int t = 0; t < source.triangles.rows(); t += 157) {
+        const int vertex = source.triangles(t, 0);
+        if (source.positions.row(vertex).norm() < 1.01)
+            markers.push_back({"m" + std::to_string(t), {t, {1, 0, 0}}, target.positions.row(vertex)});
+    }
+    const FitResult fitted = surface_fit(source, target, markers);
+    const ClosestPointIndex surface(fitted.positions, source.triangles);
+    double farthest = 0;
+    for (const auto& row : target.positions.rowwise())
+        farthest = std::max(farthest, std::sqrt(surface.closest(Point(row)).squared_distance));
+    EXPECT_LT(farthest, 0.0075 * diagonal(target.positions));
+}
+
 TEST(SurfaceFit, ABorderNearTheTargetsMeetsIt) {
     const Mesh m = sheet(12);
     Mesh target = sheet(17);

@@ -51,6 +51,14 @@ Interpolation reached_by(const std::vector<BackPull>& pulls, const Shell& shell)
     return interpolation(shell.rest.rows(), std::move(corners), {});
 }
 
+double mean_edge(const Shell& shell, const Points& positions) {
+    const double sum = parallel_sum(std::ssize(shell.topology.edges), 0.0, [&](std::ptrdiff_t e) {
+        const auto [i, j] = shell.topology.edges[idx(e)].vertices;
+        return (positions.row(i) - positions.row(j)).norm();
+    });
+    return sum / static_cast<double>(std::max<std::size_t>(1, shell.topology.edges.size()));
+}
+
 } // namespace
 
 void add_back_pulls(const Shell& shell, const Points& positions, const FitTarget& target, double weight, double reach,
@@ -64,6 +72,7 @@ void add_back_pulls(const Shell& shell, const Points& positions, const FitTarget
     const bool open = std::find(rim.begin(), rim.end(), 1) != rim.end();
     const Eigen::Index all = target.positions.rows(),
                        step = std::max<Eigen::Index>(1, all / std::max<Eigen::Index>(least_samples, positions.rows()));
+    const double edge = mean_edge(shell, positions);
     std::vector<BackPull> pulls(idx((all + step - 1) / step));
     memory.back_places.resize(pulls.size(), -1);
     parallel_for(
@@ -77,8 +86,9 @@ void add_back_pulls(const Shell& shell, const Points& positions, const FitTarget
             if (!place.found()) return;
             last = place.where.triangle;
             const Point facing = index.normals().row(last), way = from - place.position;
+            const double strength = 1 + (weight - 1) * std::min(1.0, place.squared_distance / (edge * edge));
             pulls[idx(k)] = {place.where, way, place.squared_distance > 1e-18 ? Point(way.normalized()) : facing,
-                             weight * target.area[idx(i)] * static_cast<double>(step) *
+                             strength * target.area[idx(i)] * static_cast<double>(step) *
                                  std::max(0.0, facing.dot(normal))};
         },
         64);

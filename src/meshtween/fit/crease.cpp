@@ -102,22 +102,10 @@ std::vector<char> ill_moved(const std::vector<int>& moved, const Points& from, c
     return result;
 }
 
-// Those at triangles that are turned over or cut, and were not before.
-std::vector<char> tangled(const std::vector<int>& moved, const Points& to, TangleSearch& search,
-                          const Tangles& before) {
-    const Shell& shell = search.shell;
-    std::vector<char> touched(idx(shell.triangles.rows()), 0);
+std::vector<char> touched(const std::vector<int>& moved, const Shell& shell) {
+    std::vector<char> result(idx(shell.triangles.rows()), 0);
     for (const int i : moved)
-        for (const int t : shell.topology.vertex_triangles[i]) touched[idx(t)] = 1;
-    const Tangles now = tangles(search, to, before, touched);
-    std::vector<char> result(idx(to.rows()), 0);
-    const auto blame = [&](int t) {
-        for (int k = 0; k < 3; ++k) result[idx(shell.triangles(t, k))] = 1;
-    };
-    for (const int t : now.flips)
-        if (!std::binary_search(before.flips.begin(), before.flips.end(), t)) blame(t);
-    for (const auto& pair : now.cuts)
-        if (!std::binary_search(before.cuts.begin(), before.cuts.end(), pair)) blame(pair[0]), blame(pair[1]);
+        for (const int t : shell.topology.vertex_triangles[i]) result[idx(t)] = 1;
     return result;
 }
 
@@ -141,7 +129,8 @@ Points creased(TangleSearch& search, const Points& positions, const Tangles& bef
     do { // a vertex that goes back may leave another alone
         while (take_back(ill_moved(moved, positions, result, search.shell, search.target))) {
         }
-    } while (take_back(tangled(moved, result, search, before)));
+    } while (
+        take_back(newly_tangled(search.shell, before, tangles(search, result, before, touched(moved, search.shell)))));
     return result;
 }
 

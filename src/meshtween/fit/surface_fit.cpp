@@ -2,7 +2,7 @@
 // bending falls as the fourth power of a length, from a fifth of the target to less than a thousandth; in the limit the
 // shell lies on the surface and its bending alone says where along it each vertex goes.
 //
-// The stages and their papers are in align, shell, refine, settle, untangle, crease and lift.
+// The stages and their papers are in align, shell, refine, settle, untangle, crease, nudge and lift.
 #include "meshtween/fit/surface_fit.h"
 
 #include "meshtween/core/error.h"
@@ -11,6 +11,7 @@
 #include "meshtween/fit/crease.h"
 #include "meshtween/fit/lift.h"
 #include "meshtween/fit/marker_twins.h"
+#include "meshtween/fit/nudge.h"
 #include "meshtween/fit/refine.h"
 #include "meshtween/fit/settle.h"
 #include "meshtween/fit/untangle.h"
@@ -29,6 +30,10 @@ namespace {
 constexpr double first_length = 0.2, last_length = 0.0015; // of the shell: features that it follows, in diagonals
 constexpr double first_slide = 0.01, last_slide = 1e-4;    // coarse levels keep still; the last round lets go
 constexpr int rounds_a_level = 8;
+// Of pulls from the target's side on the coarsest level, beside 1 on the others. Which part goes to which is decided
+// there, where the mesh is stiff, and covering tells it better than closeness: a leg that clings to the belly stays
+// there.
+constexpr double coarsest_back = 100;
 constexpr double calm_turn = 0.35;          // radians: between two faces or standing bodies all turn less
 constexpr int articulation_rounds = 40;     // with the markers alone, on the coarsest level
 constexpr double articulation_still = 1e-4; // stop where no vertex moves further, in diagonals
@@ -198,8 +203,9 @@ Landed land(TangleSearch& search, std::span<const Pin> pins, const Points& x, bo
     const Tangles faults = tangles(search, settled.positions, settled.flipped);
     const Untangled untangled = untangle(search, settled.positions, faults, pins, part_of(progress, 0, 0.5));
     result.patches = untangled.patches;
-    Landed landed{creased(search, untangled.positions, untangled.left), Points::Zero(x.rows(), 3),
-                  std::move(settled.places), untangled.cancelled || !keep_going(progress, 0.5, "lifting")};
+    Nudged nudged = nudge(search, creased(search, untangled.positions, untangled.left), untangled.left);
+    Landed landed{std::move(nudged.positions), Points::Zero(x.rows(), 3), std::move(settled.places),
+                  untangled.cancelled || !keep_going(progress, 0.5, "lifting")};
     if (!on_surface && !landed.cancelled)
         landed.lift = lifted(landed.positions, shell.triangles, shell.topology, search.target) - landed.positions;
     const std::vector<int> flips =
@@ -208,7 +214,7 @@ Landed land(TangleSearch& search, std::span<const Pin> pins, const Points& x, bo
     std::set_union(settled.mended.begin(), settled.mended.end(), faults.flips.begin(), faults.flips.end(),
                    std::back_inserter(seen));
     std::set_difference(seen.begin(), seen.end(), flips.begin(), flips.end(), std::back_inserter(result.mended));
-    note_faults(flips, untangled.left.cuts, result);
+    note_faults(flips, nudged.left.cuts, result);
     return landed;
 }
 
@@ -259,6 +265,7 @@ FitResult surface_fit(const Mesh& source, const Mesh& target_mesh, std::span<con
     for (const Level& level : shells.levels) work += static_cast<double>(level.positions.rows()) * rounds_a_level;
     for (std::size_t k = levels; k-- > 0;) {
         RelaxMemory memory;
+        weights.back = k > 0 && k + 1 == levels ? coarsest_back : 1;
         for (int round = 0; round < rounds_a_level; ++round, weights.length *= rate, weights.slide *= slide_rate) {
             going = going && keep_going(progress, 0.15 + 0.75 * done / work, "fitting");
             if (!going) break;

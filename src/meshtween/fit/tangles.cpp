@@ -123,4 +123,16 @@ Tangles tangles(TangleSearch& search, const Points& positions, const Tangles& be
     return fresh;
 }
 
+std::vector<char> newly_tangled(const Shell& shell, const Tangles& before, const Tangles& now) {
+    std::vector<char> result(idx(shell.rest.rows()), 0);
+    const auto flag = [&](int t) {
+        for (int k = 0; k < 3; ++k) result[idx(shell.triangles(t, k))] = 1;
+    };
+    for (const int t : now.flips)
+        if (!std::binary_search(before.flips.begin(), before.flips.end(), t)) flag(t);
+    for (const auto& pair : now.cuts)
+        if (!std::binary_search(before.cuts.begin(), before.cuts.end(), pair)) flag(pair[0]), flag(pair[1]);
+    return result;
+}
+
 } // namespace meshtween

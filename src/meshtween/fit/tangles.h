@@ -42,4 +42,7 @@ Tangles tangles(TangleSearch& search, const Points& positions, std::vector<int> 
 // The same after the vertices of the `moved` triangles, a flag each, have moved.
 Tangles tangles(TangleSearch& search, const Points& positions, const Tangles& before, const std::vector<char>& moved);
 
+// A flag a vertex: it belongs to a triangle that is turned over or cut `now` and was not so `before`.
+std::vector<char> newly_tangled(const Shell& shell, const Tangles& before, const Tangles& now);
+
 } // namespace meshtween
