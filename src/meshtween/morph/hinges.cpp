@@ -55,15 +55,15 @@ Eigen::Matrix3d frame(const TriangleEdges& edges, const Eigen::Vector3d& along) 
 }
 
 // The hinge at an edge between two triangles with area, its triangles numbered as in the mesh; none elsewhere.
-std::optional<Hinge> hinge_at(const Edge& edge, const Points& from, const Points& to, const Triangles& triangles,
-                              const FaceField& faces) {
+std::optional<PatchHinge> hinge_at(const Edge& edge, const Points& from, const Points& to, const Triangles& triangles,
+                                   const FaceField& faces) {
     const auto [a, b] = edge.triangles;
     if (edge.count != 2 || !(faces.area[a] > 0 && faces.area[b] > 0)) return {};
     auto [i, j] = edge.vertices;
     if (corner_of(triangles, a, i, j) < 0) std::swap(i, j);
     const int k = corner_of(triangles, a, i, j), l = corner_of(triangles, b, j, i);
     if (l < 0) return {}; // both run the same way: there is no angle between them
-    Hinge hinge{a, b, k, l, fold(from, triangles, a, k, b), fold(to, triangles, a, k, b), 1};
+    PatchHinge hinge{a, b, k, l, fold(from, triangles, a, k, b), fold(to, triangles, a, k, b), 1};
     // As springs in a row; and small angles are surer.
     const double way = hinge.angle_to - hinge.angle_from;
     hinge.weight = faces.area[a] * faces.area[b] / (faces.area[a] + faces.area[b]) * std::exp(-way * way / 2);
@@ -71,7 +71,7 @@ std::optional<Hinge> hinge_at(const Edge& edge, const Points& from, const Points
 }
 
 // The second's rotation against the first's at u.
-Eigen::Matrix3d between(const Hinge& hinge, const TriangleEdges& first, const TriangleEdges& second, double u) {
+Eigen::Matrix3d between(const PatchHinge& hinge, const TriangleEdges& first, const TriangleEdges& second, double u) {
     const double angle = (1 - u) * hinge.angle_from + u * hinge.angle_to;
     return frame(first, first[idx(hinge.corner)]) * Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX()) *
            frame(second, -second[idx(hinge.partner)]).transpose();
@@ -80,7 +80,7 @@ Eigen::Matrix3d between(const Hinge& hinge, const TriangleEdges& first, const Tr
 std::vector<RotationLink> links(const Hinges& hinges, const LocalEdges& edges, const Eigen::VectorXd& u) {
     std::vector<RotationLink> result(hinges.hinges.size());
     parallel_for(std::ssize(result), [&](Eigen::Index k) {
-        const Hinge& hinge = hinges.hinges[idx(k)];
+        const PatchHinge& hinge = hinges.hinges[idx(k)];
         const int first = hinges.triangles[idx(hinge.first)], second = hinges.triangles[idx(hinge.second)];
         result[idx(k)] = {hinge.first, hinge.second,
                           between(hinge, edges(first), edges(second), (u[first] + u[second]) / 2), hinge.weight};
@@ -103,13 +103,13 @@ Hinges found(const Points& from, const Points& to, const Triangles& triangles, c
     double sum = 0;
     for (const Edge& edge : topology.edges) {
         if (!inside[idx(edge.triangles[0])] && (edge.triangles[1] < 0 || !inside[idx(edge.triangles[1])])) continue;
-        std::optional<Hinge> hinge = hinge_at(edge, from, to, triangles, faces);
+        std::optional<PatchHinge> hinge = hinge_at(edge, from, to, triangles, faces);
         if (!hinge) continue;
         hinge->first = node(hinge->first), hinge->second = node(hinge->second);
         sum += hinge->weight;
         result.hinges.push_back(*hinge);
     }
-    for (Hinge& hinge : result.hinges) hinge.weight *= static_cast<double>(result.hinges.size()) / sum;
+    for (PatchHinge& hinge : result.hinges) hinge.weight *= static_cast<double>(result.hinges.size()) / sum;
     return result;
 }
 
@@ -152,7 +152,7 @@ void grow_tree(Hinges& hinges) {
         while (!queue.empty()) {
             const int k = -queue.top().second;
             queue.pop();
-            const Hinge& hinge = hinges.hinges[idx(k)];
+            const PatchHinge& hinge = hinges.hinges[idx(k)];
             if (reached[idx(hinge.first)] && reached[idx(hinge.second)]) continue;
             const bool back = reached[idx(hinge.second)] != 0;
             hinges.tree.push_back({k, back});
@@ -172,7 +172,7 @@ SparseCholesky least_squares(const Hinges& hinges) {
     const auto count = std::ssize(hinges.triangles);
     std::vector<Eigen::Triplet<double>> triplets;
     double most = 1;
-    for (const Hinge& hinge : hinges.hinges) {
+    for (const PatchHinge& hinge : hinges.hinges) {
         triplets.emplace_back(std::max(hinge.first, hinge.second), std::min(hinge.first, hinge.second), -hinge.weight);
         triplets.emplace_back(hinge.first, hinge.first, hinge.weight);
         triplets.emplace_back(hinge.second, hinge.second, hinge.weight);
@@ -235,7 +235,7 @@ std::vector<char> misled(const std::vector<char>& entangled, const Points& from,
         if (edge.triangles[1] < 0) continue;
         const int p = patches.of_triangle[idx(edge.triangles[0])], q = patches.of_triangle[idx(edge.triangles[1])];
         if ((!entangled[idx(p)] || flags[idx(p)]) && (!entangled[idx(q)] || flags[idx(q)])) continue;
-        const std::optional<Hinge> hinge = hinge_at(edge, from, to, triangles, faces);
+        const std::optional<PatchHinge> hinge = hinge_at(edge, from, to, triangles, faces);
         if (!hinge) continue;
         const Eigen::Quaterniond said(between(*hinge, half_edges(hinge->first), half_edges(hinge->second), 0.5));
         if (said.angularDistance(half[idx(hinge->first)].conjugate() * half[idx(hinge->second)]) <= third / 2) continue;
@@ -263,7 +263,7 @@ Turns way_round(Turns turns, const Points& from, const Points& to, const Triangl
         const int p = patches.of_triangle[idx(edge.triangles[0])], q = patches.of_triangle[idx(edge.triangles[1])];
         const auto link = far.find({std::min(p, q), std::max(p, q)});
         if (link == far.end()) continue;
-        const std::optional<Hinge> hinge = hinge_at(edge, from, to, triangles, faces);
+        const std::optional<PatchHinge> hinge = hinge_at(edge, from, to, triangles, faces);
         if (!hinge) continue;
         const auto half = [&](int t) { return exponential(turns.faces[idx(t)].rotation_vector[0].cast<double>() / 2); };
         Eigen::Quaterniond turn =

@@ -17,7 +17,7 @@ using TriangleEdges = std::array<Eigen::Vector3d, 3>; // from corner k to k + 1
 using LocalEdges = std::function<TriangleEdges(int triangle)>;
 
 // An edge about which two triangles turn against each other.
-struct Hinge {
+struct PatchHinge {
     int first = 0, second = 0;           // triangles, as numbered in Hinges
     int corner = 0, partner = 0;         // where the edge begins in the first; and in the second, where it runs back
     double angle_from = 0, angle_to = 0; // about the edge, from the first's normal to the second's
@@ -27,7 +27,7 @@ struct Hinge {
 struct Hinges {
     std::vector<int> triangles; // of the mesh: those inside, and those around them, which are given
     std::vector<char> inside;   // a flag one each
-    std::vector<Hinge> hinges;
+    std::vector<PatchHinge> hinges;
     struct Step {
         int hinge = 0;
         bool back = false; // from the second to the first
