@@ -33,15 +33,15 @@ Topology topology(Eigen::Index vertex_count, const Triangles& triangles) {
     std::partial_sum(first_edge.begin(), first_edge.end(), first_edge.begin());
     result.edges.resize(static_cast<std::size_t>(first_edge.back()));
     parallel_for(vertex_count, [&](Eigen::Index v) {
-        int last = -1;
-        auto edge = result.edges.begin() + first_edge[static_cast<std::size_t>(v)] - 1;
+        int last = -1, number = first_edge[static_cast<std::size_t>(v)] - 1;
         for (const int half : halves[v]) {
-            if (larger(half) != last) {
-                last = larger(half);
-                (++edge)->vertices = {static_cast<int>(v), last};
-            }
-            if (edge->count < 2) edge->triangles[static_cast<std::size_t>(edge->count)] = half / 3;
-            ++edge->count;
+            const int other = larger(half);
+            number += other != last;
+            last = other;
+            Edge& edge = result.edges[static_cast<std::size_t>(number)];
+            edge.vertices = {static_cast<int>(v), other};
+            if (edge.count < 2) edge.triangles[static_cast<std::size_t>(edge.count)] = half / 3;
+            ++edge.count;
         }
     });
     result.neighbours = gather(vertex_count, [&](const auto& put) {
