@@ -50,7 +50,8 @@ Point best_place(const Shell& shell, const FitTarget& target, Points& x, Eigen::
     Point place = start;
     for (const double step : steps)
         for (int direction = 0; direction < 27; ++direction) {
-            const Point way(direction % 3 - 1, direction / 3 % 3 - 1, direction / 9 - 1);
+            const int a = direction % 3 - 1, b = direction / 3 % 3 - 1, c = direction / 9 - 1;
+            const Point way(a, b, c);
             if (way.isZero()) continue;
             x.row(vertex) = target.index.closest(Point(start + step * shortest * way.normalized())).position;
             const Around now = around(shell, target, x, vertex);

@@ -246,8 +246,9 @@ std::vector<char> misled(const std::vector<char>& entangled, const Points& from,
         neighbours[idx(link.first)].push_back(link.second);
         neighbours[idx(link.second)].push_back(link.first);
     }
-    for (std::size_t head = 0; head < queue.size(); ++head)
-        for (const int p : neighbours[idx(queue[head])]) take(p);
+    std::size_t head = 0;
+    while (head < queue.size())
+        for (const int p : neighbours[idx(queue[head++])]) take(p);
     return flags;
 }
 
