@@ -10,7 +10,7 @@ namespace meshtween {
 // A triangle whose corners lie on a curved surface lies beside it everywhere else. Each vertex moves along its normal
 // so that the squared distance of the whole mesh from the target is least; where the target lies further off than
 // triangles of that size can miss a surface, and where it looks another way, nothing is asked of it. No vertex moves
-// further than a twentieth of its longest edge, none that would turn a triangle over. n x 3.
+// further than a tenth of its shortest edge, none that would turn a triangle over. n x 3.
 Points lifted(const Points& positions, const Triangles& triangles, const Topology& topology, const FitTarget& target);
 Points lifted(const Mesh& fitted, const Mesh& target); // in any unit
 
