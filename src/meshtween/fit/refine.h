@@ -65,7 +65,7 @@ struct RelaxWeights {
     double slide = 0.02;   // of pulls along the surface beside pulls onto it: 0 slides freely, 1 holds
     double pins = 100;     // of all pins together, beside the closeness of the whole surface
     double closeness = 1;  // 0 leaves the surface out: only the pins pull
-    double back = 1;       // of the pulls from the target's side, beside closeness
+    double back = 1;       // of pulls from the target's side, beside closeness, where the mesh is an edge away
     double border = 4;     // of pulls of the mesh's border onto the target's, beside closeness
     double least_cosine = 0.5;
     double reach = 0.3;     // closest points further away are not asked
