@@ -102,13 +102,6 @@ std::vector<char> ill_moved(const std::vector<int>& moved, const Points& from, c
     return result;
 }
 
-std::vector<char> touched(const std::vector<int>& moved, const Shell& shell) {
-    std::vector<char> result(idx(shell.triangles.rows()), 0);
-    for (const int i : moved)
-        for (const int t : shell.topology.vertex_triangles[i]) result[idx(t)] = 1;
-    return result;
-}
-
 } // namespace
 
 Points creased(TangleSearch& search, const Points& positions, const Tangles& before) {
@@ -129,8 +122,8 @@ Points creased(TangleSearch& search, const Points& positions, const Tangles& bef
     do { // a vertex that goes back may leave another alone
         while (take_back(ill_moved(moved, positions, result, search.shell, search.target))) {
         }
-    } while (
-        take_back(newly_tangled(search.shell, before, tangles(search, result, before, touched(moved, search.shell)))));
+    } while (take_back(newly_tangled(search.shell, before,
+                                     tangles(search, result, before, touched(search.shell, positions, result)))));
     return result;
 }
 

@@ -64,15 +64,6 @@ Point best_place(const Shell& shell, const FitTarget& target, Points& x, Eigen::
     return place;
 }
 
-// The triangles with a vertex that is elsewhere.
-std::vector<char> touched(const Shell& shell, const Points& from, const Points& to) {
-    std::vector<char> result(idx(shell.triangles.rows()), 0);
-    for (Eigen::Index i = 0; i < from.rows(); ++i)
-        if (from.row(i) != to.row(i))
-            for (const int t : shell.topology.vertex_triangles[i]) result[idx(t)] = 1;
-    return result;
-}
-
 } // namespace
 
 Nudged nudge(TangleSearch& search, const Points& positions, const Tangles& before) {

@@ -123,6 +123,14 @@ Tangles tangles(TangleSearch& search, const Points& positions, const Tangles& be
     return fresh;
 }
 
+std::vector<char> touched(const Shell& shell, const Points& from, const Points& to) {
+    std::vector<char> result(idx(shell.triangles.rows()), 0);
+    for (Eigen::Index i = 0; i < from.rows(); ++i)
+        if (from.row(i) != to.row(i))
+            for (const int t : shell.topology.vertex_triangles[i]) result[idx(t)] = 1;
+    return result;
+}
+
 std::vector<char> newly_tangled(const Shell& shell, const Tangles& before, const Tangles& now) {
     std::vector<char> result(idx(shell.rest.rows()), 0);
     const auto flag = [&](int t) {

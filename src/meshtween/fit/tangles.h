@@ -42,6 +42,9 @@ Tangles tangles(TangleSearch& search, const Points& positions, std::vector<int> 
 // The same after the vertices of the `moved` triangles, a flag each, have moved.
 Tangles tangles(TangleSearch& search, const Points& positions, const Tangles& before, const std::vector<char>& moved);
 
+// A flag a triangle: a vertex of it is elsewhere.
+std::vector<char> touched(const Shell& shell, const Points& from, const Points& to);
+
 // A flag a vertex: it belongs to a triangle that is turned over or cut `now` and was not so `before`.
 std::vector<char> newly_tangled(const Shell& shell, const Tangles& before, const Tangles& now);
 
