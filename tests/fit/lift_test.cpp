@@ -1,12 +1,15 @@
 #include "meshtween/fit/lift.h"
 
 #include "meshtween/core/parallel.h"
+#include "meshtween/fit/facing.h"
 #include "meshtween/fit/fit.h"
 #include "meshtween/fit/quality.h"
 #include "meshtween/geometry/measure.h"
 #include "meshtween/geometry/shapes.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 using namespace meshtween;
 
@@ -59,6 +62,23 @@ TEST(Lift, FarPartsAndSliversStay) {
         EXPECT_GE(double_area_normal(settled, slivers.triangles, t)
                       .dot(double_area_normal(slivers.positions, slivers.triangles, t)),
                   0);
+}
+
+TEST(Lift, TurnsNoTriangleIntoATargetThatIsFoldedItself) {
+    const Mesh mesh = sphere(5);
+    Mesh target = sphere(4);
+    for (Eigen::Index t = 0; t < target.triangles.rows(); t += 7) { // a corner drawn over the opposite edge
+        const auto f = target.triangles.row(t);
+        target.positions.row(f[0]) =
+            (0.6 * target.positions.row(f[1]) + 0.6 * target.positions.row(f[2]) - 0.2 * target.positions.row(f[0]))
+                .normalized();
+    }
+    const FitTarget surface = fit_target(target.positions, target.triangles);
+    Points on_it = mesh.positions;
+    for (Eigen::Index i = 0; i < on_it.rows(); ++i) on_it.row(i) = surface.index.closest(Point(on_it.row(i))).position;
+    const std::vector<int> before = facing_into(on_it, mesh.triangles, surface),
+                           after = facing_into(lifted_onto(moved(mesh, on_it), target), mesh.triangles, surface);
+    EXPECT_TRUE(std::includes(before.begin(), before.end(), after.begin(), after.end()));
 }
 
 TEST(Lift, TheSameBitsWithAnyNumberOfThreads) {

@@ -3,6 +3,7 @@
 #include "meshtween/fit/lift.h"
 
 #include "meshtween/core/parallel.h"
+#include "meshtween/fit/facing.h"
 #include "meshtween/geometry/measure.h"
 
 #include <Eigen/Geometry>
@@ -150,6 +151,17 @@ bool is_spoilt(const Gap& centre, const Point& before, const Point& now) {
                              now.dot(centre.normal) < least_facing * now.norm());
 }
 
+// Triangles that look into the target, of which a corner is elsewhere than before and which did not before.
+std::vector<int> turned(const Points& before, const Points& now, const Triangles& triangles, const FitTarget& target) {
+    std::vector<int> result;
+    for (const int t : facing_into(now, triangles, target)) {
+        bool moved = false;
+        for (int k = 0; k < 3; ++k) moved = moved || now.row(triangles(t, k)) != before.row(triangles(t, k));
+        if (moved && facing_into(before, triangles.row(t), target).empty()) result.push_back(t);
+    }
+    return result;
+}
+
 } // namespace
 
 Points lifted(const Points& positions, const Triangles& triangles, const Topology& topology, const FitTarget& target) {
@@ -163,19 +175,17 @@ Points lifted(const Points& positions, const Triangles& triangles, const Topolog
         moves[i] = std::clamp(moves[i], -farthest * shortest, farthest * shortest);
     });
     Points result = positions + moves.asDiagonal() * normals;
-    for (bool all_well = false; !all_well;) {
-        std::vector<char> back(idx(positions.rows()), 0);
-        all_well = true;
-        for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-            if (!is_spoilt(beside.centres[idx(t)], double_area_normal(positions, triangles, t),
-                           double_area_normal(result, triangles, t)))
-                continue;
-            for (int k = 0; k < 3; ++k) back[idx(triangles(t, k))] = 1;
-            all_well = false;
-        }
-        for (Eigen::Index i = 0; i < positions.rows(); ++i)
-            if (back[idx(i)]) result.row(i) = positions.row(i);
-    }
+    const auto spoilt = [&] {
+        std::vector<int> list;
+        for (Eigen::Index t = 0; t < triangles.rows(); ++t)
+            if (is_spoilt(beside.centres[idx(t)], double_area_normal(positions, triangles, t),
+                          double_area_normal(result, triangles, t)))
+                list.push_back(static_cast<int>(t));
+        return list.empty() ? turned(positions, result, triangles, target) : list;
+    };
+    for (std::vector<int> ill = spoilt(); !ill.empty(); ill = spoilt())
+        for (const int t : ill)
+            for (int k = 0; k < 3; ++k) result.row(triangles(t, k)) = positions.row(triangles(t, k));
     return result;
 }
 

@@ -1,8 +1,11 @@
-// The last few triangles that look into the target, turned by moving one vertex at a time.
+// The last triangles that look into the target, turned by small moves of the vertices around them.
 #pragma once
 
 #include "meshtween/core/mesh.h"
+#include "meshtween/fit/refine.h"
 #include "meshtween/fit/tangles.h"
+
+#include <span>
 
 namespace meshtween {
 
@@ -11,10 +14,11 @@ struct Nudged {
     Tangles left;
 };
 
-// Each vertex of a triangle turned over goes, on the target and by less than half of its shortest edge, where the
-// fewest triangles around it look into the target, and of such places where the mesh around lies nearest to it. No
-// triangle grows much thinner; what comes to be turned over or cut by it goes back. `before` are the tangles of the
-// positions.
-Nudged nudge(TangleSearch& search, const Points& positions, const Tangles& before);
+// Of the triangles that look into the target (facing_into), the corners and their neighbours go, one after another and
+// on the target, by less than half of their shortest edge, to where the least is wanting around them: the detours to
+// places that look the same way, and the distances. Rounds go on while fewer triangles are left. No triangle grows much
+// thinner, no pin comes to lie further off, and no part of the mesh cuts more than it did. `before` are the tangles of
+// the positions.
+Nudged nudge(TangleSearch& search, const Points& positions, const Tangles& before, std::span<const Pin> pins);
 
 } // namespace meshtween

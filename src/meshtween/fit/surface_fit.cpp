@@ -203,7 +203,7 @@ Landed land(TangleSearch& search, std::span<const Pin> pins, const Points& x, bo
     const Tangles faults = tangles(search, settled.positions, settled.flipped);
     const Untangled untangled = untangle(search, settled.positions, faults, pins, part_of(progress, 0, 0.5));
     result.patches = untangled.patches;
-    Nudged nudged = nudge(search, creased(search, untangled.positions, untangled.left), untangled.left);
+    Nudged nudged = nudge(search, creased(search, untangled.positions, untangled.left), untangled.left, pins);
     Landed landed{std::move(nudged.positions), Points::Zero(x.rows(), 3), std::move(settled.places),
                   untangled.cancelled || !keep_going(progress, 0.5, "lifting")};
     if (!on_surface && !landed.cancelled)

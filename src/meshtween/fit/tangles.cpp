@@ -87,13 +87,17 @@ Pairs new_cuts(TangleSearch& search, const Points& positions) {
     return without_known(search, positions, self_intersections(positions, search.shell.triangles));
 }
 
-Pairs new_cuts(TangleSearch& search, const Points& positions, const std::vector<char>& chosen) {
+Pairs all_cuts(TangleSearch& search, const Points& positions, const std::vector<char>& chosen) {
     if (std::find(chosen.begin(), chosen.end(), 1) == chosen.end()) return {};
     const std::vector<int> near = near_chosen(positions, search.shell.triangles, chosen);
     Pairs cuts = self_intersections(positions, search.shell.triangles(near, Eigen::all));
     for (auto& pair : cuts) pair = {near[idx(pair[0])], near[idx(pair[1])]}; // ascending, as `near` is
     std::erase_if(cuts, [&](const auto& pair) { return !chosen[idx(pair[0])] && !chosen[idx(pair[1])]; });
-    return without_known(search, positions, cuts);
+    return cuts;
+}
+
+Pairs new_cuts(TangleSearch& search, const Points& positions, const std::vector<char>& chosen) {
+    return without_known(search, positions, all_cuts(search, positions, chosen));
 }
 
 Tangles tangles(TangleSearch& search, const Points& positions) {
