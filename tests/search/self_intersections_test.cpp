@@ -159,6 +159,22 @@ TEST(SelfIntersections, OfTwoSpheresAreWhereTheirFacesPierce) {
     EXPECT_EQ(self_intersections(mesh.positions, mesh.triangles), expected);
 }
 
+TEST(SelfIntersections, OfChosenTrianglesAreThoseOfAllWithOneOfThem) {
+    Mesh mesh = spheres(30, 0.7654321);
+    mesh.triangles.row(21) << 5, 5, 6; // chosen, and no triangle at all
+    std::vector<char> chosen(static_cast<std::size_t>(mesh.triangles.rows()), 0);
+    EXPECT_TRUE(self_intersections(mesh.positions, mesh.triangles, chosen).empty());
+    for (std::size_t t = 0; t < chosen.size(); t += 7) chosen[t] = 1;
+    Pairs expected = self_intersections(mesh.positions, mesh.triangles);
+    const auto count = expected.size();
+    std::erase_if(expected, [&](const auto& pair) {
+        return !chosen[static_cast<std::size_t>(pair[0])] && !chosen[static_cast<std::size_t>(pair[1])];
+    });
+    EXPECT_LT(expected.size(), count);
+    EXPECT_GT(expected.size(), 10u);
+    EXPECT_EQ(self_intersections(mesh.positions, mesh.triangles, chosen), expected);
+}
+
 TEST(SelfIntersections, AreTheSameForAnyNumberOfThreadsAndAnyOrderOfFaces) {
     const Mesh mesh = spheres(30, 0.7654321);
     set_threads(1);

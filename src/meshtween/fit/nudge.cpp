@@ -5,6 +5,7 @@
 #include "meshtween/core/parallel.h"
 #include "meshtween/fit/facing.h"
 #include "meshtween/geometry/measure.h"
+#include "meshtween/search/self_intersections.h"
 
 #include <Eigen/Geometry>
 
@@ -126,12 +127,12 @@ std::vector<std::vector<int>> parts_around(const Shell& shell, const std::vector
 }
 
 // Where a part has come to cut more than it did, the vertices of what is cut by it go back.
-void take_back_cuts(TangleSearch& search, const std::vector<std::vector<int>>& parts, const Points& x, Points& now) {
-    const Triangles& triangles = search.shell.triangles;
+void take_back_cuts(const Shell& shell, const std::vector<std::vector<int>>& parts, const Points& x, Points& now) {
+    const Triangles& triangles = shell.triangles;
     std::vector<int> part(idx(x.rows()), -1);
     for (std::size_t k = 0; k < parts.size(); ++k)
         for (const int i : parts[k]) part[idx(i)] = static_cast<int>(k);
-    const std::vector<char> asked = touched(search.shell, x, now);
+    const std::vector<char> asked = touched(shell, x, now);
     const auto counted = [&](const std::vector<std::array<int, 2>>& cuts) {
         std::vector<long> count(parts.size(), 0);
         for (const auto& pair : cuts)
@@ -140,11 +141,11 @@ void take_back_cuts(TangleSearch& search, const std::vector<std::vector<int>>& p
                     if (const int own = part[idx(triangles(t, k))]; own >= 0) ++count[idx(own)];
         return count;
     };
-    const auto before = all_cuts(search, x, asked);
+    const auto before = self_intersections(x, triangles, asked);
     const std::vector<long> count_before = counted(before);
     for (bool back = true; back;) {
         back = false;
-        const auto after = all_cuts(search, now, asked);
+        const auto after = self_intersections(now, triangles, asked);
         const std::vector<long> count = counted(after);
         for (const auto& pair : after) {
             if (std::binary_search(before.begin(), before.end(), pair)) continue;
@@ -177,7 +178,7 @@ Nudged nudge(TangleSearch& search, const Points& positions, const Tangles& befor
                 for (const int vertex : parts[idx(k)]) to_best_place(ground, now, vertex);
             },
             1);
-        take_back_cuts(search, parts, x, now);
+        take_back_cuts(shell, parts, x, now);
         x = std::move(now);
         flips = facing_into(x, shell.triangles, search.target);
         if (flips.size() >= fewest) continue;

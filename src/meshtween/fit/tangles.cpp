@@ -51,53 +51,14 @@ Pairs without_known(TangleSearch& search, const Points& positions, const Pairs& 
     return fresh;
 }
 
-// The triangles that come near a chosen one, by a grid of cells over the mesh.
-std::vector<int> near_chosen(const Points& positions, const Triangles& triangles, const std::vector<char>& chosen) {
-    constexpr int cells = 64; // along each side of the mesh's box
-    const Point low = positions.colwise().minCoeff(), high = positions.colwise().maxCoeff();
-    const Point per_unit = cells / (high - low).cwiseMax(1e-12).array();
-    const auto each_cell = [&](Eigen::Index t, const auto& visit) {
-        Point least = positions.row(triangles(t, 0)), most = least;
-        for (int k = 1; k < 3; ++k) {
-            least = least.cwiseMin(positions.row(triangles(t, k)));
-            most = most.cwiseMax(positions.row(triangles(t, k)));
-        }
-        const auto cell = [&](const Point& p, int k) {
-            return std::clamp(static_cast<int>((p[k] - low[k]) * per_unit[k]), 0, cells - 1);
-        };
-        for (int x = cell(least, 0); x <= cell(most, 0); ++x)
-            for (int y = cell(least, 1); y <= cell(most, 1); ++y)
-                for (int z = cell(least, 2); z <= cell(most, 2); ++z) visit(idx((x * cells + y) * cells + z));
-    };
-    std::vector<char> marked(idx(cells * cells * cells), 0);
-    for (Eigen::Index t = 0; t < triangles.rows(); ++t)
-        if (chosen[idx(t)]) each_cell(t, [&](std::size_t cell) { marked[cell] = 1; });
-    std::vector<int> near;
-    for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-        char any = 0;
-        each_cell(t, [&](std::size_t cell) { any |= marked[cell]; });
-        if (any) near.push_back(static_cast<int>(t));
-    }
-    return near;
-}
-
 } // namespace
 
 Pairs new_cuts(TangleSearch& search, const Points& positions) {
     return without_known(search, positions, self_intersections(positions, search.shell.triangles));
 }
 
-Pairs all_cuts(TangleSearch& search, const Points& positions, const std::vector<char>& chosen) {
-    if (std::find(chosen.begin(), chosen.end(), 1) == chosen.end()) return {};
-    const std::vector<int> near = near_chosen(positions, search.shell.triangles, chosen);
-    Pairs cuts = self_intersections(positions, search.shell.triangles(near, Eigen::all));
-    for (auto& pair : cuts) pair = {near[idx(pair[0])], near[idx(pair[1])]}; // ascending, as `near` is
-    std::erase_if(cuts, [&](const auto& pair) { return !chosen[idx(pair[0])] && !chosen[idx(pair[1])]; });
-    return cuts;
-}
-
 Pairs new_cuts(TangleSearch& search, const Points& positions, const std::vector<char>& chosen) {
-    return without_known(search, positions, all_cuts(search, positions, chosen));
+    return without_known(search, positions, self_intersections(positions, search.shell.triangles, chosen));
 }
 
 Tangles tangles(TangleSearch& search, const Points& positions) {

@@ -30,10 +30,6 @@ std::vector<std::array<int, 2>> new_cuts(TangleSearch& search, const Points& pos
 std::vector<std::array<int, 2>> new_cuts(TangleSearch& search, const Points& positions,
                                          const std::vector<char>& chosen);
 
-// All of them with a chosen triangle, wherever they lie.
-std::vector<std::array<int, 2>> all_cuts(TangleSearch& search, const Points& positions,
-                                         const std::vector<char>& chosen);
-
 struct Tangles {
     std::vector<int> flips;               // triangles that look into the target, ascending, without those at its cuts
     std::vector<std::array<int, 2>> cuts; // new_cuts

@@ -5,7 +5,11 @@
 #include "meshtween/core/parallel.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <limits>
 #include <numeric>
 
 namespace meshtween::search {
@@ -27,10 +31,30 @@ struct Builder {
     const FloatBox& box(int i) const { return boxes[static_cast<std::size_t>(item(i))]; }
     static float centre(const FloatBox& box, std::size_t axis) { return 0.5F * (box.low[axis] + box.high[axis]); }
 
-    // Makes the node for begin..end: a leaf, or an inner node and its two children's work.
-    void make(std::vector<BoxTree::Node>& nodes, const Work& work, std::vector<Work>& todo) const;
+    // The node for begin..end, and where its items, put in order, are divided; that is `end` for a leaf.
+    struct Made {
+        FloatBox box;
+        int middle = 0;
+    };
+    Made make(const Work& work) const;
     int divide(const Work& work, const FloatBox& centres) const;
 };
+
+// Keeps the node and adds its two children's work, unless it is a leaf.
+void keep(const Work& work, const Builder::Made& made, std::vector<BoxTree::Node>& nodes, std::vector<Work>& todo) {
+    BoxTree::Node& node = nodes[static_cast<std::size_t>(work.node)];
+    node.box = made.box;
+    if (made.middle == work.end) {
+        node.first = work.begin;
+        node.count = work.end - work.begin;
+        return;
+    }
+    const int left = static_cast<int>(nodes.size());
+    node.first = left;
+    nodes.resize(nodes.size() + 2);
+    todo.push_back({left + 1, made.middle, work.end, work.depth + 1});
+    todo.push_back({left, work.begin, made.middle, work.depth + 1});
+}
 
 struct Bin {
     FloatBox box;
@@ -92,7 +116,7 @@ int Builder::divide(const Work& work, const FloatBox& centres) const {
     return static_cast<int>(right - order.begin());
 }
 
-void Builder::make(std::vector<BoxTree::Node>& nodes, const Work& work, std::vector<Work>& todo) const {
+Builder::Made Builder::make(const Work& work) const {
     FloatBox all, centres;
     for (int i = work.begin; i < work.end; ++i) {
         const FloatBox& b = box(i);
@@ -100,18 +124,14 @@ void Builder::make(std::vector<BoxTree::Node>& nodes, const Work& work, std::vec
         const std::array<float, 3> middle{centre(b, 0), centre(b, 1), centre(b, 2)};
         centres.extend({middle, middle});
     }
-    BoxTree::Node& node = nodes[static_cast<std::size_t>(work.node)];
-    node.box = all;
-    if (work.end - work.begin <= leaf_size) {
-        node.first = work.begin;
-        node.count = work.end - work.begin;
-        return;
-    }
-    const int middle = divide(work, centres), left = static_cast<int>(nodes.size());
-    node.first = left;
-    nodes.resize(nodes.size() + 2);
-    todo.push_back({left + 1, middle, work.end, work.depth + 1});
-    todo.push_back({left, work.begin, middle, work.depth + 1});
+    return {all, work.end - work.begin <= leaf_size ? work.end : divide(work, centres)};
+}
+
+// The next float above: std::nextafter is a call each time.
+float next_above(float x) {
+    if (!(std::abs(x) <= std::numeric_limits<float>::max())) return x;
+    const auto bits = std::bit_cast<std::int32_t>(x + 0.0F); // without a minus before nought
+    return std::bit_cast<float>(bits >= 0 ? bits + 1 : bits - 1);
 }
 
 } // namespace
@@ -129,15 +149,13 @@ Frame frame(const Points& positions) {
 std::vector<FloatBox> triangle_boxes(const Points& positions, const Triangles& triangles, const Frame& frame) {
     std::vector<FloatBox> boxes(static_cast<std::size_t>(triangles.rows()));
     parallel_for(triangles.rows(), [&](Eigen::Index t) {
+        const Point a = frame.into(positions.row(triangles(t, 0))), b = frame.into(positions.row(triangles(t, 1))),
+                    c = frame.into(positions.row(triangles(t, 2)));
+        const Point low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
         FloatBox& box = boxes[static_cast<std::size_t>(t)];
-        for (int corner = 0; corner < 3; ++corner) {
-            const Point p = frame.into(positions.row(triangles(t, corner)));
-            for (int k = 0; k < 3; ++k) {
-                const auto axis = static_cast<std::size_t>(k);
-                const auto rounded = static_cast<float>(p[k]);
-                box.low[axis] = std::min(box.low[axis], std::nextafter(rounded, -FloatBox::nowhere));
-                box.high[axis] = std::max(box.high[axis], std::nextafter(rounded, FloatBox::nowhere));
-            }
+        for (std::size_t k = 0; k < 3; ++k) {
+            box.low[k] = -next_above(static_cast<float>(-low[static_cast<Eigen::Index>(k)]));
+            box.high[k] = next_above(static_cast<float>(high[static_cast<Eigen::Index>(k)]));
         }
     });
     return boxes;
@@ -150,17 +168,25 @@ BoxTree box_tree(const std::vector<FloatBox>& boxes, int leaf_size) {
     tree.order.resize(boxes.size());
     std::iota(tree.order.begin(), tree.order.end(), 0);
     const Builder builder{boxes, tree.order, leaf_size};
-    // The top of the tree first, then the subtrees beside each other; where to cut depends on the items alone.
+    // The top of the tree first, level by level, then the subtrees beside each other; where to cut depends on the items
+    // alone.
     const int small = std::max(4096, count / 64);
-    std::vector<Work> todo{{0, 0, count, 0}}, subtrees;
+    std::vector<Work> level{{0, 0, count, 0}}, subtrees;
     tree.nodes.resize(1);
-    while (!todo.empty()) {
-        const Work work = todo.back();
-        todo.pop_back();
-        if (work.end - work.begin <= small)
-            subtrees.push_back(work);
-        else
-            builder.make(tree.nodes, work, todo);
+    while (!level.empty()) {
+        const auto is_small = [&](const Work& work) { return work.end - work.begin <= small; };
+        std::copy_if(level.begin(), level.end(), std::back_inserter(subtrees), is_small);
+        std::erase_if(level, is_small);
+        std::vector<Builder::Made> made(level.size());
+        parallel_for(
+            std::ssize(level),
+            [&](std::ptrdiff_t w) {
+                made[static_cast<std::size_t>(w)] = builder.make(level[static_cast<std::size_t>(w)]);
+            },
+            1);
+        std::vector<Work> next;
+        for (std::size_t w = 0; w < level.size(); ++w) keep(level[w], made[w], tree.nodes, next);
+        level = std::move(next);
     }
     std::vector<std::vector<BoxTree::Node>> grown(subtrees.size());
     parallel_for(
@@ -172,7 +198,7 @@ BoxTree box_tree(const std::vector<FloatBox>& boxes, int leaf_size) {
             while (!rest.empty()) {
                 const Work work = rest.back();
                 rest.pop_back();
-                builder.make(grown[i], work, rest);
+                keep(work, builder.make(work), grown[i], rest);
             }
         },
         1);

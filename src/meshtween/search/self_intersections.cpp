@@ -136,49 +136,58 @@ struct Leaves {
     std::vector<int> leaves;
 };
 
-// All cutting pairs of a leaf with itself and with the leaves after it.
-void meet(const Surface& surface, const Leaves& all, int leaf, Pairs& found) {
-    const search::BoxTree& tree = all.tree;
-    const auto& own = tree.nodes[static_cast<std::size_t>(leaf)];
-    const auto item = [&](int i) { return tree.order[static_cast<std::size_t>(i)]; };
-    const auto box = [&](int i) -> const search::FloatBox& { return all.boxes[static_cast<std::size_t>(i)]; };
+// Calls visit(node) for the leaves whose boxes overlap this one.
+template <typename Visit>
+void each_leaf(const search::BoxTree& tree, const search::FloatBox& box, const Visit& visit) {
     std::array<int, search::BoxTree::deepest + 1> stack{};
     std::size_t top = 0;
     stack[top++] = 0;
     while (top > 0) {
-        const auto& node = tree.nodes[static_cast<std::size_t>(stack[--top])];
-        if (!overlap(node.box, own.box)) continue;
+        const search::BoxTree::Node& node = tree.nodes[static_cast<std::size_t>(stack[--top])];
+        if (!overlap(node.box, box)) continue;
         if (node.count == 0) {
             stack[top++] = node.first;
             stack[top++] = node.first + 1;
-            continue;
+        } else {
+            visit(node);
         }
+    }
+}
+
+// All cutting pairs of a leaf with itself and with the leaves after it.
+void meet(const Surface& surface, const Leaves& all, int leaf, Pairs& found) {
+    const auto& own = all.tree.nodes[static_cast<std::size_t>(leaf)];
+    const auto item = [&](int i) { return all.tree.order[static_cast<std::size_t>(i)]; };
+    const auto box = [&](int i) -> const search::FloatBox& { return all.boxes[static_cast<std::size_t>(i)]; };
+    each_leaf(all.tree, own.box, [&](const search::BoxTree::Node& node) {
         for (int i = own.first; i < own.first + own.count; ++i)
             for (int j = std::max(node.first, i + 1); j < node.first + node.count; ++j)
                 if (overlap(box(i), box(j)) && surface.cut(item(i), item(j)))
                     found.push_back({std::min(item(i), item(j)), std::max(item(i), item(j))});
-    }
+    });
 }
 
-Leaves leaves_over_area(const Surface& surface) {
-    const Triangles& triangles = surface.triangles;
-    std::vector<char> has_area(static_cast<std::size_t>(triangles.rows()));
-    parallel_for(triangles.rows(), [&](Eigen::Index t) {
-        const Corners c = surface.corners(static_cast<int>(t));
-        has_area[static_cast<std::size_t>(t)] = !collinear(c[0], c[1], c[2]);
+bool has_area(const Surface& surface, int t) {
+    const Corners c = surface.corners(t);
+    return !collinear(c[0], c[1], c[2]);
+}
+
+// Over the triangles with area of those that are chosen, by their numbers; `boxes` is one a triangle.
+Leaves leaves_over(const Surface& surface, const std::vector<search::FloatBox>& boxes, std::vector<char> chosen) {
+    parallel_for(surface.triangles.rows(), [&](Eigen::Index t) {
+        char& flag = chosen[static_cast<std::size_t>(t)];
+        flag = flag && has_area(surface, static_cast<int>(t));
     });
-    std::vector<search::FloatBox> boxes =
-        search::triangle_boxes(surface.positions, triangles, search::frame(surface.positions));
     std::vector<int> number;
-    for (std::size_t t = 0; t < boxes.size(); ++t)
-        if (has_area[t]) {
-            boxes[number.size()] = boxes[t];
+    std::vector<search::FloatBox> own;
+    for (std::size_t t = 0; t < chosen.size(); ++t)
+        if (chosen[t]) {
             number.push_back(static_cast<int>(t));
+            own.push_back(boxes[t]);
         }
-    boxes.resize(number.size());
-    Leaves result{search::box_tree(boxes, 4), {}, {}};
+    Leaves result{search::box_tree(own, 4), {}, {}};
     for (int& item : result.tree.order) {
-        result.boxes.push_back(boxes[static_cast<std::size_t>(item)]);
+        result.boxes.push_back(own[static_cast<std::size_t>(item)]);
         item = number[static_cast<std::size_t>(item)];
     }
     for (std::size_t n = 0; n < result.tree.nodes.size(); ++n)
@@ -186,26 +195,92 @@ Leaves leaves_over_area(const Surface& surface) {
     return result;
 }
 
-} // namespace
+// A coarse grid over the frame of `boxes`, -1..1 and a rounding, that knows which cells boxes lie in.
+class Cells {
+public:
+    Cells() : marked_(side * side * side, 0) {}
+    void mark(const search::FloatBox& box) {
+        each(box, [&](char& cell) { cell = 1; });
+    }
+    bool near(const search::FloatBox& box) {
+        char any = 0;
+        each(box, [&](char& cell) { any |= cell; });
+        return any != 0;
+    }
 
-std::vector<std::array<int, 2>> self_intersections(const Points& positions, const Triangles& triangles) {
-    if (triangles.rows() == 0) return {};
-    const Surface surface{positions, triangles};
-    const Leaves leaves = leaves_over_area(surface);
-    constexpr std::ptrdiff_t grain = 32;
-    const auto count = static_cast<std::ptrdiff_t>(leaves.leaves.size());
+private:
+    static constexpr int side = 64;
+
+    static std::size_t cell(float x) {
+        return static_cast<std::size_t>(std::clamp(static_cast<int>((x + 1) * (side / 2)), 0, side - 1));
+    }
+    template <typename Visit>
+    void each(const search::FloatBox& box, const Visit& visit) {
+        for (std::size_t x = cell(box.low[0]); x <= cell(box.high[0]); ++x)
+            for (std::size_t y = cell(box.low[1]); y <= cell(box.high[1]); ++y)
+                for (std::size_t z = cell(box.low[2]); z <= cell(box.high[2]); ++z)
+                    visit(marked_[(x * side + y) * side + z]);
+    }
+
+    std::vector<char> marked_;
+};
+
+// The cutting pairs of a triangle with the chosen ones; of two chosen ones, from the first.
+void meet_chosen(const Surface& surface, const Leaves& leaves, const search::FloatBox& box, int t,
+                 const std::vector<char>& chosen, Pairs& found) {
+    const bool own = chosen[static_cast<std::size_t>(t)] != 0;
+    bool asked = false, area = false; // asked only where it matters
+    each_leaf(leaves.tree, box, [&](const search::BoxTree::Node& node) {
+        for (int i = node.first; i < node.first + node.count; ++i) {
+            const int s = leaves.tree.order[static_cast<std::size_t>(i)];
+            if (s == t || (own && s < t) || !overlap(leaves.boxes[static_cast<std::size_t>(i)], box)) continue;
+            if (!asked) asked = true, area = has_area(surface, t);
+            if (area && surface.cut(s, t)) found.push_back({std::min(s, t), std::max(s, t)});
+        }
+    });
+}
+
+// What visit(i, found) finds for i in 0..count-1, ascending.
+template <typename Visit>
+Pairs sorted_finds(std::ptrdiff_t count, std::ptrdiff_t grain, const Visit& visit) {
     std::vector<Pairs> found(static_cast<std::size_t>((count + grain - 1) / grain));
     parallel_for(
-        static_cast<std::ptrdiff_t>(found.size()),
+        std::ssize(found),
         [&](std::ptrdiff_t b) {
             for (std::ptrdiff_t i = b * grain; i < std::min(count, (b + 1) * grain); ++i)
-                meet(surface, leaves, leaves.leaves[static_cast<std::size_t>(i)], found[static_cast<std::size_t>(b)]);
+                visit(i, found[static_cast<std::size_t>(b)]);
         },
         1);
     Pairs all;
     for (const Pairs& some : found) all.insert(all.end(), some.begin(), some.end());
     std::sort(all.begin(), all.end());
     return all;
+}
+
+} // namespace
+
+Pairs self_intersections(const Points& positions, const Triangles& triangles) {
+    if (triangles.rows() == 0) return {};
+    const Surface surface{positions, triangles};
+    const auto boxes = search::triangle_boxes(positions, triangles, search::frame(positions));
+    const Leaves leaves = leaves_over(surface, boxes, std::vector<char>(boxes.size(), 1));
+    return sorted_finds(std::ssize(leaves.leaves), 32, [&](std::ptrdiff_t i, Pairs& found) {
+        meet(surface, leaves, leaves.leaves[static_cast<std::size_t>(i)], found);
+    });
+}
+
+Pairs self_intersections(const Points& positions, const Triangles& triangles, const std::vector<char>& chosen) {
+    if (std::find(chosen.begin(), chosen.end(), 1) == chosen.end()) return {};
+    const Surface surface{positions, triangles};
+    const auto boxes = search::triangle_boxes(positions, triangles, search::frame(positions));
+    const Leaves leaves = leaves_over(surface, boxes, chosen);
+    if (leaves.leaves.empty()) return {};
+    Cells cells;
+    for (const search::FloatBox& box : leaves.boxes) cells.mark(box);
+    return sorted_finds(triangles.rows(), 1024, [&](std::ptrdiff_t t, Pairs& found) {
+        const search::FloatBox& box = boxes[static_cast<std::size_t>(t)];
+        if (cells.near(box)) meet_chosen(surface, leaves, box, static_cast<int>(t), chosen, found);
+    });
 }
 
 } // namespace meshtween

@@ -13,4 +13,8 @@ namespace meshtween {
 // onto each other; faces that share a vertex count where an opposite edge of one meets the other.
 std::vector<std::array<int, 2>> self_intersections(const Points& positions, const Triangles& triangles);
 
+// Those of them with a chosen triangle (a flag each): the sooner, the fewer are chosen.
+std::vector<std::array<int, 2>> self_intersections(const Points& positions, const Triangles& triangles,
+                                                   const std::vector<char>& chosen);
+
 } // namespace meshtween
