@@ -50,6 +50,8 @@ TEST(Facing, HoldsWhatFlippedTrianglesFinds) {
     const std::vector<int> flips = flipped_triangles(x, f, target);
     EXPECT_EQ(flips.size(), 1U);
     EXPECT_EQ(facing_into(x, f, target), flips);
+    EXPECT_EQ(facing_into(x, {1, 2}, {1, 1, 0}, f, target), (std::vector<int>{flips.front(), 2}))
+        << "what has not moved is as it was";
 }
 
 } // namespace

@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 using namespace meshtween;
 
 namespace {
@@ -66,6 +69,31 @@ TEST(Nudge, MarkersComeNoFurtherOff) {
     const Pin pin{{0, {1, 0, 0}}, {0, 0, 0}, held, 1, 0};
     EXPECT_NE(Point(nudge(search, folded.mesh.positions, before, {}).positions.row(folded.vertex)), held);
     EXPECT_EQ(Point(nudge(search, folded.mesh.positions, before, {&pin, 1}).positions.row(folded.vertex)), held);
+}
+
+// A bowl as thin as a hundredth of its width: flat triangles between points of one side reach beyond the other side.
+Points bowl(const Points& ball) {
+    Points x = ball / 2;
+    x.col(2) = 0.01 * x.col(2) + x.leftCols(2).rowwise().squaredNorm();
+    return x;
+}
+
+TEST(Nudge, VerticesThatMayLeaveTheTargetTurnWhatSpansAThinSheet) {
+    const Mesh fine = sphere(5), mesh = sphere(2);
+    const FitTarget target = fit_target(bowl(fine.positions), fine.triangles);
+    const Points x = bowl(mesh.positions);
+    const Shell rest = shell(x, mesh.triangles);
+    TangleSearch search{rest, target, {}};
+    const Tangles before = tangles(search, x);
+    const Nudged on = nudge(search, x, before, {}), off = nudge(search, x, before, {}, true);
+    EXPECT_GT(on.left.flips.size(), 100U);
+    EXPECT_LT(off.left.flips.size(), 5U);
+    for (Eigen::Index i = 0; i < x.rows(); ++i) {
+        double longest = 0;
+        for (const int j : rest.topology.neighbours[i])
+            longest = std::max(longest, (off.positions.row(i) - off.positions.row(j)).norm());
+        EXPECT_LE(std::sqrt(target.index.closest(Point(off.positions.row(i))).squared_distance), 0.2 * longest) << i;
+    }
 }
 
 TEST(Nudge, WithoutFlipsNothingMoves) {

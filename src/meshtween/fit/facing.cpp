@@ -40,10 +40,18 @@ Facing facing(const Point& centre, const Point& area_normal, const FitTarget& ta
 }
 
 std::vector<int> facing_into(const Points& positions, const Triangles& triangles, const FitTarget& target) {
-    std::vector<char> flag(static_cast<std::size_t>(triangles.rows()), 0);
+    return facing_into(positions, {}, std::vector<char>(static_cast<std::size_t>(triangles.rows()), 1), triangles,
+                       target);
+}
+
+std::vector<int> facing_into(const Points& positions, const std::vector<int>& before, const std::vector<char>& moved,
+                             const Triangles& triangles, const FitTarget& target) {
+    std::vector<char> flag(moved.size(), 0);
+    for (const int t : before) flag[static_cast<std::size_t>(t)] = 1;
     parallel_for(
         triangles.rows(),
         [&](std::ptrdiff_t t) {
+            if (!moved[static_cast<std::size_t>(t)]) return;
             const auto f = triangles.row(t);
             const Point centre = (positions.row(f[0]) + positions.row(f[1]) + positions.row(f[2])) / 3;
             flag[static_cast<std::size_t>(t)] =

@@ -24,4 +24,8 @@ Facing facing(const Point& centre, const Point& area_normal, const FitTarget& ta
 // that are closest to an edge of the target and agree with one side of it alone.
 std::vector<int> facing_into(const Points& positions, const Triangles& triangles, const FitTarget& target);
 
+// The same after some triangles, a flag each, have moved; `before` are those before.
+std::vector<int> facing_into(const Points& positions, const std::vector<int>& before, const std::vector<char>& moved,
+                             const Triangles& triangles, const FitTarget& target);
+
 } // namespace meshtween

@@ -19,9 +19,12 @@ namespace {
 
 constexpr std::array steps{0.1, 0.2, 0.4}; // of a vertex's shortest edge
 constexpr int directions = 8;              // along the target
-constexpr double least_area = 0.1;         // of the smallest triangle's before
+// Above and below the target, in mean edges around a vertex, where it may leave it: a flat triangle whose corners lie
+// on both sides of a valley or a thin sheet comes off the wrong wall so.
+constexpr std::array heights{0.0, 0.1, -0.1, 0.2, -0.2};
+constexpr double least_area = 0.1; // of the smallest triangle's before
 // What a triangle that looks into the target costs beside its detour (in edges), as such and by how much it does; and
-// what the squared distances of all triangles cost.
+// what the squared distances of all triangles and of the vertex itself cost.
 constexpr double as_such = 0.1, by_cosine = 0.2, by_distance = 0.1;
 constexpr int most_rounds = 10, patient_rounds = 3; // in all; that turn no further triangle
 
@@ -36,11 +39,12 @@ struct Ground {
     std::span<const Pin> pins;
     std::vector<std::vector<int>> pins_at; // a vertex: those in the triangles around it
     double unit = 0;                       // a typical edge
+    bool leave = false;                    // vertices may leave the target
 };
 
 Ground ground_of(const Shell& shell, const FitTarget& target, std::span<const Pin> pins, const Points& positions,
-                 const std::vector<int>& flips) {
-    Ground ground{shell, target, pins, std::vector<std::vector<int>>(idx(positions.rows())), 0};
+                 const std::vector<int>& flips, bool leave) {
+    Ground ground{shell, target, pins, std::vector<std::vector<int>>(idx(positions.rows())), 0, leave};
     for (std::size_t k = 0; k < pins.size(); ++k)
         for (int c = 0; c < 3; ++c)
             ground.pins_at[idx(shell.triangles(pins[k].where.triangle, c))].push_back(static_cast<int>(k));
@@ -56,11 +60,13 @@ struct Around {
     double least_area = std::numeric_limits<double>::infinity();
 };
 
-// Not past `most`, of the cost.
-Around around(const Ground& ground, const Points& x, Eigen::Index vertex,
+// Of a vertex at that squared distance from the target; not past `most`, of the cost.
+Around around(const Ground& ground, const Points& x, Eigen::Index vertex, double squared_distance,
               double most = std::numeric_limits<double>::infinity()) {
     const Triangles& triangles = ground.shell.triangles;
+    const double per_square = by_distance / (ground.unit * ground.unit);
     Around result;
+    result.cost = per_square * squared_distance;
     for (const int k : ground.pins_at[idx(vertex)]) {
         const Pin& pin = ground.pins[idx(k)];
         result.markers += (position(x, triangles, pin.where) - pin.target).squaredNorm();
@@ -70,7 +76,7 @@ Around around(const Ground& ground, const Points& x, Eigen::Index vertex,
         const Point area = double_area_normal(x, triangles, t);
         const Facing there = facing(centre, area, ground.target);
         if (there.into()) result.cost += as_such + there.detour / ground.unit - by_cosine * there.cosine;
-        result.cost += by_distance * there.squared_distance / (ground.unit * ground.unit);
+        result.cost += per_square * there.squared_distance;
         if (result.cost > most) break;
         result.least_area = std::min(result.least_area, area.norm());
     }
@@ -79,25 +85,37 @@ Around around(const Ground& ground, const Points& x, Eigen::Index vertex,
 
 // Moves the vertex where it does best, of some places around its own.
 void to_best_place(const Ground& ground, Points& x, Eigen::Index vertex) {
+    const auto neighbours = ground.shell.topology.neighbours[vertex];
     const Point start = x.row(vertex);
-    double shortest = std::numeric_limits<double>::infinity();
-    for (const int j : ground.shell.topology.neighbours[vertex])
-        shortest = std::min(shortest, (x.row(j) - start).norm());
-    const Around before = around(ground, x, vertex);
+    double shortest = std::numeric_limits<double>::infinity(), mean = 0;
+    for (const int j : neighbours) {
+        const double length = (x.row(j) - start).norm();
+        shortest = std::min(shortest, length);
+        mean += length / static_cast<double>(neighbours.size());
+    }
+    const ClosestPoint here = ground.target.index.closest(start);
+    const Around before = around(ground, x, vertex, here.squared_distance);
     double best = before.cost;
     Point place = start;
-    const Point normal = normal_at(ground.target, ground.target.index.closest(start).where);
-    const Point u = normal.unitOrthogonal(), v = normal.cross(u);
-    for (const double step : steps)
-        for (int k = 0; k < directions; ++k) {
-            const double angle = 2 * EIGEN_PI * k / directions;
-            const Point there = start + step * shortest * (std::cos(angle) * u + std::sin(angle) * v);
-            x.row(vertex) = ground.target.index.closest(there).position;
-            const Around now = around(ground, x, vertex, best);
+    const auto try_over = [&](const ClosestPoint& there) {
+        const Point up = mean * normal_at(ground.target, there.where);
+        for (const double height : std::span(heights).first(ground.leave ? heights.size() : 1)) {
+            x.row(vertex) = there.position + height * up;
+            const Around now = around(ground, x, vertex, height * height * mean * mean, best);
             if (!(now.cost < best) || now.least_area < least_area * before.least_area || now.markers > before.markers)
                 continue;
             best = now.cost;
             place = x.row(vertex);
+        }
+    };
+    try_over(here);
+    const Point normal = normal_at(ground.target, here.where);
+    const Point u = normal.unitOrthogonal(), v = normal.cross(u);
+    for (const double step : steps)
+        for (int k = 0; k < directions; ++k) {
+            const double angle = 2 * EIGEN_PI * k / directions;
+            const Point way = std::cos(angle) * u + std::sin(angle) * v;
+            try_over(ground.target.index.closest(Point(start + step * shortest * way)));
         }
     x.row(vertex) = place;
 }
@@ -162,11 +180,12 @@ void take_back_cuts(const Shell& shell, const std::vector<std::vector<int>>& par
 
 } // namespace
 
-Nudged nudge(TangleSearch& search, const Points& positions, const Tangles& before, std::span<const Pin> pins) {
+Nudged nudge(TangleSearch& search, const Points& positions, const Tangles& before, std::span<const Pin> pins,
+             bool leave) {
     const Shell& shell = search.shell;
     std::vector<int> flips = facing_into(positions, shell.triangles, search.target);
     if (flips.empty()) return {positions, before};
-    const Ground ground = ground_of(shell, search.target, pins, positions, flips);
+    const Ground ground = ground_of(shell, search.target, pins, positions, flips, leave);
     Points best = positions, x = positions;
     std::size_t fewest = flips.size();
     for (int round = 0, idle = 0; round < most_rounds && idle < patient_rounds && !flips.empty(); ++round, ++idle) {
@@ -179,8 +198,8 @@ Nudged nudge(TangleSearch& search, const Points& positions, const Tangles& befor
             },
             1);
         take_back_cuts(shell, parts, x, now);
+        flips = facing_into(now, flips, touched(shell, x, now), shell.triangles, search.target);
         x = std::move(now);
-        flips = facing_into(x, shell.triangles, search.target);
         if (flips.size() >= fewest) continue;
         fewest = flips.size();
         idle = -1;

@@ -14,11 +14,12 @@ struct Nudged {
     Tangles left;
 };
 
-// Of the triangles that look into the target (facing_into), the corners and their neighbours go, one after another and
-// on the target, by less than half of their shortest edge, to where the least is wanting around them: the detours to
-// places that look the same way, and the distances. Rounds go on while fewer triangles are left. No triangle grows much
-// thinner, no pin comes to lie further off, and no part of the mesh cuts more than it did. `before` are the tangles of
-// the positions.
-Nudged nudge(TangleSearch& search, const Points& positions, const Tangles& before, std::span<const Pin> pins);
+// Of the triangles that look into the target (facing_into), the corners and their neighbours go, one after another, by
+// less than half of their shortest edge, to where the least is wanting around them: the detours to places that look the
+// same way, and the distances. They stay on the target, or, with `leave`, within a fifth of an edge. Rounds go on while
+// fewer triangles are left. No triangle grows much thinner, no pin comes to lie further off, and no part of the mesh
+// cuts more than it did. `before` are the tangles of the positions.
+Nudged nudge(TangleSearch& search, const Points& positions, const Tangles& before, std::span<const Pin> pins,
+             bool leave = false);
 
 } // namespace meshtween
