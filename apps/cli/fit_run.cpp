@@ -143,7 +143,7 @@ Fitted run_fit(const Mesh& source, const Mesh& target, const MarkerPairs& marker
                                 "surface, which does with any number",
                                 markers.pairs.size() == 1 ? "is" : "are", markers.pairs.size()));
     options.warp.kernel = flags.kernel == "linear" ? Kernel::linear : Kernel::thin_plate;
-    const std::vector<Marker> placed = place_markers(markers.pairs, source);
+    std::vector<Marker> placed = place_markers(markers.pairs, source);
     const Progress fitting = part_of(progress, 0, 0.8);
     const RefinedFit done = flags.refine.empty()
                                 ? RefinedFit{source, fit(source, target, placed, options, fitting), {}, 0}
@@ -156,6 +156,7 @@ Fitted run_fit(const Mesh& source, const Mesh& target, const MarkerPairs& marker
     Fitted fitted{done.source, done.source, {}, to_json(result)};
     if (!flags.refine.empty()) {
         fitted.report["refined"] = refined_report(done, source);
+        placed = place_markers(markers.pairs, fitted.source);
         console.note(done.added.empty()
                          ? "refine: the source is fine enough as it is"
                          : fmt::format("refine: {} vertices became {} in {} rounds", source.positions.rows(),
@@ -165,11 +166,10 @@ Fitted run_fit(const Mesh& source, const Mesh& target, const MarkerPairs& marker
     fitted.report["seconds"] = seconds;
     keep_going(progress, 0.8, "measuring");
     const Comparison both(fitted.mesh, target);
-    const Quality quality = measure(fitted.source, both, {}, markers.pairs, seed);
+    const Quality quality = measure(fitted.source, both, {}, placed, seed);
     keep_going(progress, 0.9, "finding places");
     fitted.map = correspondence(both);
-    fitted.report.update(fit_places(fitted.source, fitted.mesh, target, result, fitted.map, quality,
-                                    place_markers(markers.pairs, fitted.source)));
+    fitted.report.update(fit_places(fitted.source, fitted.mesh, target, result, fitted.map, quality, placed));
     fitted.report["quality"] = to_json(quality);
     stop_if_interrupted();
     if (result.twins > 0)

@@ -1,6 +1,7 @@
 #include "inputs.h"
 
 #include "meshtween/core/error.h"
+#include "meshtween/fit/markers.h"
 #include "meshtween/fit/quality.h"
 
 #include <fmt/format.h>
@@ -33,6 +34,8 @@ void add_measure(CLI::App& app, const Common& common) {
         const Points truth = a->truth.empty() ? Points() : read_points(a->truth);
         MarkerPairs markers;
         if (!a->markers.empty()) markers = load_markers(a->markers, source, target, console);
-        fmt::print("{}\n", to_json(measure(source, fitted, target, truth, markers.pairs, common.seed)).dump(2));
+        fmt::print(
+            "{}\n",
+            to_json(measure(source, fitted, target, truth, place_markers(markers.pairs, source), common.seed)).dump(2));
     });
 }

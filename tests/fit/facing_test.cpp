@@ -50,8 +50,11 @@ TEST(Facing, HoldsWhatFlippedTrianglesFinds) {
     const std::vector<int> flips = flipped_triangles(x, f, target);
     EXPECT_EQ(flips.size(), 1U);
     EXPECT_EQ(facing_into(x, f, target), flips);
-    EXPECT_EQ(facing_into(x, {1, 2}, {1, 1, 0}, f, target), (std::vector<int>{flips.front(), 2}))
-        << "what has not moved is as it was";
+    FacingWatch watch(f, target, EdgeSides::both, {3, 0, 2}); // hints change nothing, good or bad
+    EXPECT_EQ(watch.into(x), flips);
+    x.row(4).swap(x.row(5)); // turns the last triangle over
+    EXPECT_EQ(watch.into(x), (std::vector<int>{flips.front(), 2}));
+    EXPECT_EQ(watch.into(x), facing_into(x, f, target));
 }
 
 } // namespace

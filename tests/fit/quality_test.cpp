@@ -1,6 +1,7 @@
 #include "meshtween/fit/quality.h"
 
 #include "meshtween/core/error.h"
+#include "meshtween/fit/markers.h"
 #include "meshtween/geometry/shapes.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +17,7 @@ Mesh scaled(Mesh mesh, double factor) {
 TEST(Quality, AMeshOnItself) {
     const Mesh ball = sphere(3);
     const MarkerPair pole{"pole", ball.positions.row(0), ball.positions.row(0)};
-    const Quality q = measure(ball, ball, ball, ball.positions, std::span(&pole, 1));
+    const Quality q = measure(ball, ball, ball, ball.positions, place_markers(std::span(&pole, 1), ball));
     EXPECT_LT(q.fitted_to_target.max, 1e-9);
     EXPECT_LT(q.target_to_fitted.max, 1e-9);
     EXPECT_LT(q.eq7, 1e-20);

@@ -126,13 +126,13 @@ Fitted examined(const OpenMesh& source, const OpenMesh& target, const FitResult&
     keep_going(progress, 0.1, "measuring");
     fitted.summary = meshtween::to_json(result);
     fitted.summary["mark"] = mark_of(markers);
-    const std::vector<MarkerPair> pairs = complete_pairs(markers);
-    const Quality quality = measure(source.mesh, fitted.mesh, target.mesh, {}, pairs);
+    const std::vector<Marker> placed = place_markers(complete_pairs(markers), source.mesh);
+    const Quality quality = measure(source.mesh, fitted.mesh, target.mesh, {}, placed);
     fitted.summary["quality"] = meshtween::to_json(quality);
     keep_going(progress, 0.7, "finding places");
     fitted.summary["marker_errors"] = marker_errors(source, target, fitted.mesh, markers);
-    fitted.summary.update(fit_places(source.mesh, fitted.mesh, target.mesh, result, fitted.map, quality,
-                                     place_markers(pairs, source.mesh), longest_list));
+    fitted.summary.update(
+        fit_places(source.mesh, fitted.mesh, target.mesh, result, fitted.map, quality, placed, longest_list));
     keep_going(progress, 1, "measuring");
     return fitted;
 }

@@ -20,12 +20,34 @@ struct Facing {
 // rounding: the least cosine of all counts. `hint` is a triangle of the target that is probably near, or -1.
 Facing facing(const Point& centre, const Point& area_normal, const FitTarget& target, int hint = -1);
 
-// Triangles of the mesh that look into the target by this measure, ascending: those of flipped_triangles, and those
-// that are closest to an edge of the target and agree with one side of it alone.
+// What counts where a triangle is closest to an edge of the target: the side that happens to answer, or both.
+enum class EdgeSides { one, both };
+
+// Which triangles of a mesh look into the target, kept up to date while its vertices move: only those that moved are
+// asked again.
+class FacingWatch {
+public:
+    // Both must outlive it. `places` has a triangle of the target that is probably near for each of the mesh's, or
+    // nothing.
+    FacingWatch(const Triangles& triangles, const FitTarget& target, EdgeSides sides, std::vector<int> places = {});
+    std::vector<int> into(const Points& positions); // ascending
+
+private:
+    void ask(const Points& positions, std::ptrdiff_t t);
+
+    const Triangles& triangles_;
+    const FitTarget& target_;
+    EdgeSides sides_;
+    std::vector<int> places_; // the target's triangle closest to each centre, or -1
+    std::vector<char> flags_;
+    Points last_;
+};
+
+// Triangles of the mesh that look into the target where both sides of edges count, ascending: those of
+// flipped_triangles, and those that are closest to an edge of the target and agree with one side of it alone.
 std::vector<int> facing_into(const Points& positions, const Triangles& triangles, const FitTarget& target);
 
-// The same after some triangles, a flag each, have moved; `before` are those before.
-std::vector<int> facing_into(const Points& positions, const std::vector<int>& before, const std::vector<char>& moved,
-                             const Triangles& triangles, const FitTarget& target);
+// For each triangle what `of_vertices` says for its first corner; nothing for nothing.
+std::vector<int> at_first_corners(const Triangles& triangles, const std::vector<int>& of_vertices);
 
 } // namespace meshtween

@@ -33,13 +33,14 @@ std::size_t idx(std::ptrdiff_t i) {
 struct Gap {
     Point normal{0, 0, 0}; // of the target; zero: nothing there
     double height = 0;     // from the mesh to the target, along it
+    int place = -1;        // the target's triangle
 };
 
 Gap gap(const Point& at, const Point& normal, double length, const FitTarget& target) {
     const ClosestPoint there = target.index.closest(at, {normal, least_cosine}, reach * length);
     if (!there.found() || on_border(target, there.where)) return {};
     const Point facing = normal_at(target, there.where);
-    return {facing, facing.dot(there.position - at)};
+    return {facing, facing.dot(there.position - at), there.where.triangle};
 }
 
 // matrix moves = right for the moves of vertices along their normals; entries off the diagonal in the order of the
@@ -152,9 +153,10 @@ bool is_spoilt(const Gap& centre, const Point& before, const Point& now) {
 }
 
 // Triangles that look into the target, of which a corner is elsewhere than before and which did not before.
-std::vector<int> turned(const Points& before, const Points& now, const Triangles& triangles, const FitTarget& target) {
+std::vector<int> turned(const Points& before, const Points& now, const Triangles& triangles, const FitTarget& target,
+                        FacingWatch& watch) {
     std::vector<int> result;
-    for (const int t : facing_into(now, triangles, target)) {
+    for (const int t : watch.into(now)) {
         bool moved = false;
         for (int k = 0; k < 3; ++k) moved = moved || now.row(triangles(t, k)) != before.row(triangles(t, k));
         if (moved && facing_into(before, triangles.row(t), target).empty()) result.push_back(t);
@@ -175,13 +177,16 @@ Points lifted(const Points& positions, const Triangles& triangles, const Topolog
         moves[i] = std::clamp(moves[i], -farthest * shortest, farthest * shortest);
     });
     Points result = positions + moves.asDiagonal() * normals;
+    std::vector<int> places;
+    for (const Gap& centre : beside.centres) places.push_back(centre.place);
+    FacingWatch watch(triangles, target, EdgeSides::both, std::move(places));
     const auto spoilt = [&] {
         std::vector<int> list;
         for (Eigen::Index t = 0; t < triangles.rows(); ++t)
             if (is_spoilt(beside.centres[idx(t)], double_area_normal(positions, triangles, t),
                           double_area_normal(result, triangles, t)))
                 list.push_back(static_cast<int>(t));
-        return list.empty() ? turned(positions, result, triangles, target) : list;
+        return list.empty() ? turned(positions, result, triangles, target, watch) : list;
     };
     for (std::vector<int> ill = spoilt(); !ill.empty(); ill = spoilt())
         for (const int t : ill)

@@ -181,9 +181,10 @@ void take_back_cuts(const Shell& shell, const std::vector<std::vector<int>>& par
 } // namespace
 
 Nudged nudge(TangleSearch& search, const Points& positions, const Tangles& before, std::span<const Pin> pins,
-             bool leave) {
+             bool leave, const std::vector<int>& places) {
     const Shell& shell = search.shell;
-    std::vector<int> flips = facing_into(positions, shell.triangles, search.target);
+    FacingWatch watch(shell.triangles, search.target, EdgeSides::both, at_first_corners(shell.triangles, places));
+    std::vector<int> flips = watch.into(positions);
     if (flips.empty()) return {positions, before};
     const Ground ground = ground_of(shell, search.target, pins, positions, flips, leave);
     Points best = positions, x = positions;
@@ -198,8 +199,8 @@ Nudged nudge(TangleSearch& search, const Points& positions, const Tangles& befor
             },
             1);
         take_back_cuts(shell, parts, x, now);
-        flips = facing_into(now, flips, touched(shell, x, now), shell.triangles, search.target);
         x = std::move(now);
+        flips = watch.into(x);
         if (flips.size() >= fewest) continue;
         fewest = flips.size();
         idle = -1;

@@ -18,8 +18,9 @@ struct Nudged {
 // less than half of their shortest edge, to where the least is wanting around them: the detours to places that look the
 // same way, and the distances. They stay on the target, or, with `leave`, within a fifth of an edge. Rounds go on while
 // fewer triangles are left. No triangle grows much thinner, no pin comes to lie further off, and no part of the mesh
-// cuts more than it did. `before` are the tangles of the positions.
+// cuts more than it did. `before` are the tangles of the positions; `places`, a triangle of the target that is probably
+// near for each vertex, make it faster.
 Nudged nudge(TangleSearch& search, const Points& positions, const Tangles& before, std::span<const Pin> pins,
-             bool leave = false);
+             bool leave = false, const std::vector<int>& places = {});
 
 } // namespace meshtween

@@ -148,7 +148,7 @@ Statistics statistics(std::vector<double> values) {
     return s;
 }
 
-Quality measure(const Mesh& source, const Comparison& both, const Points& truth, std::span<const MarkerPair> markers,
+Quality measure(const Mesh& source, const Comparison& both, const Points& truth, std::span<const Marker> markers,
                 std::uint32_t seed) {
     const Mesh &fitted = both.fitted, &target = both.target;
     require_same_mesh(source, fitted, truth);
@@ -174,7 +174,7 @@ Quality measure(const Mesh& source, const Comparison& both, const Points& truth,
     }
     if (!markers.empty()) {
         std::vector<double> errors;
-        for (const Marker& m : place_markers(markers, source))
+        for (const Marker& m : markers)
             errors.push_back((position(fitted.positions, fitted.triangles, m.source) - m.target).norm() * percent);
         q.marker_error = statistics(errors);
     }

@@ -35,12 +35,12 @@ struct Quality {
     std::optional<Statistics> truth_error, marker_error;
 };
 
-// `truth`: n x 3, where each vertex should be, empty if not known; `markers`: pairs to score, empty for none; `seed`:
+// `truth`: n x 3, where each vertex should be, empty if not known; `markers`: to score, empty for none; `seed`:
 // of the sample points. Throws Error(argument) where the meshes do not belong together.
 Quality measure(const Mesh& source, const Comparison& both, const Points& truth = {},
-                std::span<const MarkerPair> markers = {}, std::uint32_t seed = 12345);
+                std::span<const Marker> markers = {}, std::uint32_t seed = 12345);
 inline Quality measure(const Mesh& source, const Mesh& fitted, const Mesh& target, const Points& truth = {},
-                       std::span<const MarkerPair> markers = {}, std::uint32_t seed = 12345) {
+                       std::span<const Marker> markers = {}, std::uint32_t seed = 12345) {
     return measure(source, Comparison(fitted, target), truth, markers, seed);
 }
 

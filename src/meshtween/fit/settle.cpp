@@ -3,6 +3,7 @@
 #include "meshtween/fit/settle.h"
 
 #include "meshtween/core/parallel.h"
+#include "meshtween/fit/facing.h"
 #include "meshtween/geometry/measure.h"
 
 #include <Eigen/Geometry>
@@ -53,50 +54,6 @@ void find_goals(const Shell& shell, const Points& positions, const FitTarget& ta
         },
         64);
 }
-
-// Which triangles look into the target, kept up to date while vertices move: only those that moved are asked again.
-class Facing {
-public:
-    Facing(const Triangles& triangles, const FitTarget& target, const std::vector<int>& vertex_places)
-        : triangles_(triangles), target_(target), place_(idx(triangles.rows()), -1), flag_(place_.size(), 0) {
-        if (vertex_places.empty()) return;
-        for (std::size_t t = 0; t < place_.size(); ++t)
-            place_[t] = vertex_places[idx(triangles(static_cast<Eigen::Index>(t), 0))];
-    }
-
-    // Ascending.
-    std::vector<int> into(const Points& positions) {
-        const bool all = last_.rows() == 0;
-        parallel_for(
-            triangles_.rows(),
-            [&](std::ptrdiff_t t) {
-                bool moved = all;
-                for (int k = 0; k < 3 && !moved; ++k)
-                    moved = positions.row(triangles_(t, k)) != last_.row(triangles_(t, k));
-                if (moved) ask(positions, t);
-            },
-            256);
-        last_ = positions;
-        std::vector<int> result;
-        for (std::size_t t = 0; t < flag_.size(); ++t)
-            if (flag_[t]) result.push_back(static_cast<int>(t));
-        return result;
-    }
-
-private:
-    void ask(const Points& x, std::ptrdiff_t t) {
-        const Point centre = (x.row(triangles_(t, 0)) + x.row(triangles_(t, 1)) + x.row(triangles_(t, 2))) / 3;
-        int& place = place_[idx(t)];
-        place = target_.index.closest(centre, place).where.triangle;
-        flag_[idx(t)] = double_area_normal(x, triangles_, t).dot(target_.index.normals().row(place)) < 0;
-    }
-
-    const Triangles& triangles_;
-    const FitTarget& target_;
-    std::vector<int> place_; // the triangle of the target closest to each centre
-    std::vector<char> flag_;
-    Points last_;
-};
 
 // The steps shortened until no triangle that looked along the surface's normals at its corners looks against them.
 Points guarded(const Shell& shell, const Points& from, const Goals& to, std::vector<int>& refused) {
@@ -159,7 +116,7 @@ Points relaxed_around(const Shell& shell, const Points& positions, const std::ve
 
 std::vector<int> flipped_triangles(const Points& positions, const Triangles& triangles, const FitTarget& target,
                                    const std::vector<int>& places) {
-    return Facing(triangles, target, places).into(positions);
+    return FacingWatch(triangles, target, EdgeSides::one, at_first_corners(triangles, places)).into(positions);
 }
 
 Settled settle(const Shell& shell, const Points& positions, const FitTarget& target, const SettleOptions& options) {
@@ -170,7 +127,7 @@ Settled settle(const Shell& shell, const Points& positions, const FitTarget& tar
     find_goals(shell, positions, target, options, asked, goals);
     Settled result;
     result.positions = guarded(shell, positions, goals, result.refused);
-    Facing facing(shell.triangles, target, goals.places);
+    FacingWatch facing(shell.triangles, target, EdgeSides::one, at_first_corners(shell.triangles, goals.places));
     result.flipped = facing.into(result.positions);
     const std::vector<int> before = result.flipped;
     Points trial = result.positions;

@@ -203,12 +203,13 @@ Landed land(TangleSearch& search, std::span<const Pin> pins, const Points& x, bo
     const Tangles faults = tangles(search, settled.positions, settled.flipped);
     const Untangled untangled = untangle(search, settled.positions, faults, pins, part_of(progress, 0, 0.5));
     result.patches = untangled.patches;
-    Nudged nudged = nudge(search, creased(search, untangled.positions, untangled.left), untangled.left, pins);
+    Nudged nudged = nudge(search, creased(search, untangled.positions, untangled.left), untangled.left, pins, false,
+                          settled.places);
     Landed landed{nudged.positions, Points::Zero(x.rows(), 3), std::move(settled.places),
                   untangled.cancelled || !keep_going(progress, 0.5, "lifting")};
     if (!on_surface && !landed.cancelled) {
         const Points up = lifted(landed.positions, shell.triangles, shell.topology, search.target);
-        nudged = nudge(search, up, nudged.left, pins, true);
+        nudged = nudge(search, up, nudged.left, pins, true, landed.places);
         landed.lift = nudged.positions - landed.positions;
     }
     const std::vector<int> flips =

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace meshtween {
 namespace {
@@ -29,6 +30,8 @@ struct Piece {
     double edge = 0, area = 0;        // a typical length of it now, and its area
     FoldEnergy energy;
     Points x;
+    std::vector<int> places;                  // a vertex: the target's triangle of the last answer
+    std::optional<ClosestPointIndex> surface; // of the piece, where the last round found it
 };
 
 // Rest shapes are scaled as the patch's rim is: what lies between grew or shrank with it.
@@ -132,10 +135,13 @@ Point smooth_normal(const FitTarget& target, const SurfacePoint& where) {
 void find_surface(const FitTarget& target, const Points& look, bool any_sheet, Piece& piece) {
     FoldEnergy& energy = piece.energy;
     Points normals(look.rows(), 3);
+    piece.places.resize(piece.vertices.size(), -1);
     for (Eigen::Index i = 0; i < look.rows(); ++i) {
+        int& place = piece.places[idx(i)];
         const Compatible compatible{look.row(i).normalized(), any_sheet ? -1 : least_cosine};
-        ClosestPoint closest = target.index.closest(Point(piece.x.row(i)), compatible, near);
-        if (!closest.found()) closest = target.index.closest(Point(piece.x.row(i)));
+        ClosestPoint closest = target.index.closest(Point(piece.x.row(i)), compatible, near, place);
+        if (!closest.found()) closest = target.index.closest(Point(piece.x.row(i)), place);
+        place = closest.where.triangle;
         normals.row(i) = smooth_normal(target, closest.where);
         if (i >= energy.free) continue;
         energy.planes[idx(i)] = closest.position;
@@ -150,10 +156,13 @@ void find_surface(const FitTarget& target, const Points& look, bool any_sheet, P
 
 void add_pulls(const FoldedPatch& patch, std::span<const TargetSample> samples, Piece& piece) {
     FoldEnergy& energy = piece.energy;
-    const ClosestPointIndex index(piece.x, energy.triangles);
+    if (piece.surface)
+        piece.surface->move(piece.x);
+    else
+        piece.surface.emplace(piece.x, energy.triangles, MeshIs::moving);
     for (const int k : patch.samples) {
         const TargetSample& sample = samples[idx(k)];
-        const ClosestPoint place = index.closest(sample.position, Compatible{sample.normal, 0});
+        const ClosestPoint place = piece.surface->closest(sample.position, Compatible{sample.normal, 0});
         if (!place.found()) continue;
         const auto f = energy.triangles.row(place.where.triangle);
         energy.pulls.push_back({{f[0], f[1], f[2]},

@@ -78,7 +78,7 @@ Patches patches_around(const Shell& shell, const Tangles& faults, int rings) {
 // The triangle of the mesh that answers for each sample, or -1.
 std::vector<int> answering(const Shell& shell, const Points& positions, const std::vector<TargetSample>& samples) {
     constexpr double reach = 0.3;
-    const ClosestPointIndex index(positions, shell.triangles);
+    const ClosestPointIndex index(positions, shell.triangles, MeshIs::moving); // sooner made: no hints
     std::vector<int> triangle(samples.size());
     parallel_for(std::ssize(samples), [&](std::ptrdiff_t k) {
         const TargetSample& sample = samples[idx(k)];
