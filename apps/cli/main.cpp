@@ -11,6 +11,10 @@
 
 #include <new>
 
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
 namespace {
 
 std::string perhaps(const std::string& word, const std::vector<std::string>& names) {
@@ -41,9 +45,20 @@ std::string misused(const CLI::App& app, const CLI::App& verb, const std::string
     return fmt::format("{}\nmeshtween {} --help tells more", what, verb.get_name());
 }
 
+// Large arrays come and go many times a second: memory that was given back to the system each time would be wiped each
+// time.
+void keep_memory() {
+#if defined(__GLIBC__)
+    constexpr int mebibyte = 1 << 20;
+    mallopt(M_MMAP_THRESHOLD, 32 * mebibyte);
+    mallopt(M_TRIM_THRESHOLD, 1024 * mebibyte);
+#endif
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
+    keep_memory();
     CLI::App app{
         "meshtween morphs one 3D shape into another of similar build.\n"
         "Exit status: 0 done, 1 wrong arguments, 2 the computation failed, 3 a bad file, 130 stopped by Ctrl-C."};

@@ -136,8 +136,9 @@ BlockSystem level_system(const ShellLevels& shells, std::size_t level, const Rel
     BlockSystem system;
     system.pattern = shell.pattern;
     system.values.resize(shell.bending.size());
-    for (std::size_t e = 0; e < system.values.size(); ++e)
-        system.values[e] = bending * shell.bending[e] + membrane * shell.membrane[e];
+    parallel_for(std::ssize(system.values), [&](std::ptrdiff_t e) {
+        system.values[idx(e)] = bending * shell.bending[idx(e)] + membrane * shell.membrane[idx(e)];
+    });
     system.blocks.assign(shell.area.size(), Matrix3d::Zero());
     const auto& pins = shells.pins[level];
     for (std::size_t k = 0; k < pins.size(); ++k)
@@ -183,8 +184,7 @@ ClosestPoint closest_on_border(const FitTarget& target, const Point& point, cons
     return along.dot(direction) < least_cosine ? ClosestPoint{} : closest;
 }
 
-ShellLevels shell_levels(const Points& rest, const Triangles& triangles, std::span<const Pin> pins,
-                         const HierarchyOptions& options) {
+ShellLevels shell_levels(const Points& rest, const Triangles& triangles, const HierarchyOptions& options) {
     ShellLevels all;
     all.levels = hierarchy(rest, triangles, options);
     for (const Level& level : all.levels) all.shells.push_back(shell(level.positions, level.triangles));
@@ -199,16 +199,22 @@ ShellLevels shell_levels(const Points& rest, const Triangles& triangles, std::sp
         all.up.push_back(interpolation(all.levels[k].positions.rows(), std::move(points), std::move(weights)));
     }
     all.pins.resize(all.levels.size());
+    return all;
+}
+
+void set_pins(ShellLevels& all, std::span<const Pin> pins) {
+    const Level& finest = all.levels[0];
     all.pins[0].assign(pins.begin(), pins.end());
-    for (std::size_t k = 1; k < all.levels.size(); ++k)
+    for (std::size_t k = 1; k < all.levels.size(); ++k) {
+        all.pins[k].clear();
         for (std::size_t i = 0; i < pins.size(); ++i) {
-            const Point at = position(rest, triangles, pins[i].where) + pins[i].offset;
+            const Point at = position(finest.positions, finest.triangles, pins[i].where) + pins[i].offset;
             Pin pin = pins[i];
             pin.where = coarser_place(all, k - 1, all.pins[k - 1][i].where, at);
             pin.offset = at - position(all.levels[k].positions, all.levels[k].triangles, pin.where);
             all.pins[k].push_back(pin);
         }
-    return all;
+    }
 }
 
 Points border_directions(const Points& positions, const Triangles& triangles, const Topology& topology) {

@@ -56,8 +56,9 @@ struct ShellLevels {
     std::vector<Interpolation> up;      // up[k] leads from level k + 1 to level k
     std::vector<std::vector<Pin>> pins; // a list a level
 };
-ShellLevels shell_levels(const Points& rest, const Triangles& triangles, std::span<const Pin> pins,
-                         const HierarchyOptions& options = {});
+ShellLevels shell_levels(const Points& rest, const Triangles& triangles, const HierarchyOptions& options = {});
+// Puts pins on the finest level and finds their places on the others.
+void set_pins(ShellLevels& shells, std::span<const Pin> pins);
 
 struct RelaxWeights {
     double length = 0.1;   // bending against closeness: features shorter than this (in diagonals) are followed

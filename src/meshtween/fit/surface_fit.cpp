@@ -23,6 +23,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 
 namespace meshtween {
 namespace {
@@ -135,8 +136,8 @@ void leave_grid(Points& x, const FitTarget& target, const Points& itself, const 
         256);
 }
 
-// Pins for the markers' mirror twins, behind those of the markers. Returns how many.
-int add_twins(const Points& rest, const Triangles& triangles, const FitTarget& target, std::vector<Pin>& pins) {
+// Pins for the markers' mirror twins, behind those of the markers.
+void add_twins(const Points& rest, const Triangles& triangles, const FitTarget& target, std::vector<Pin>& pins) {
     Points from(std::ssize(pins), 3), to(std::ssize(pins), 3);
     for (std::size_t k = 0; k < pins.size(); ++k) {
         from.row(static_cast<Eigen::Index>(k)) = position(rest, triangles, pins[k].where);
@@ -145,7 +146,26 @@ int add_twins(const Points& rest, const Triangles& triangles, const FitTarget& t
     const std::vector<MarkerTwin> twins =
         marker_twins(rest, triangles, target.positions, target.triangles, target.index, from, to);
     for (const MarkerTwin& twin : twins) pins.push_back({twin.source, {0, 0, 0}, twin.target, twin.weight, twin.slack});
-    return static_cast<int>(twins.size());
+}
+
+struct Sides {
+    std::optional<FitTarget> target;
+    ShellLevels shells;
+};
+
+// Both sides at once, for much of the source's is one thread's work.
+Sides prepared(const Points& rest, const Triangles& triangles, const Points& target, const Triangles& target_triangles,
+               std::vector<Pin> pins, bool with_twins) {
+    Sides sides;
+    const auto prepare_target = [&] {
+        sides.target.emplace(fit_target(target, target_triangles));
+        if (with_twins) add_twins(rest, triangles, *sides.target, pins);
+    };
+    const auto prepare_source = [&] { sides.shells = shell_levels(rest, triangles, {250, 4}); };
+    parallel_for(
+        2, [&](std::ptrdiff_t side) { side == 0 ? prepare_target() : prepare_source(); }, 1);
+    set_pins(sides.shells, pins);
+    return sides;
 }
 
 // The pose: as rigid as possible with the markers held, before anything is asked of the surface.
@@ -240,17 +260,20 @@ FitResult surface_fit(const Mesh& source, const Mesh& target_mesh, std::span<con
     FitResult result;
     const Frame frame = frame_of(source, target_mesh, markers);
     const Points in_frame = frame.in(target_mesh.positions);
-    const FitTarget target = fit_target(on_grid(in_frame), target_mesh.triangles);
+    const Points on_the_grid = on_grid(in_frame);
     Points goals(std::ssize(markers), 3);
     for (std::size_t k = 0; k < markers.size(); ++k) goals.row(static_cast<Eigen::Index>(k)) = markers[k].target;
     goals = on_grid(frame.in(goals));
     const Points rest =
-        start(source, target.positions, target.triangles, markers, goals, result.notes)(source.positions);
+        start(source, on_the_grid, target_mesh.triangles, markers, goals, result.notes)(source.positions);
     std::vector<Pin> pins;
     for (std::size_t k = 0; k < markers.size(); ++k)
         pins.push_back({markers[k].source, {0, 0, 0}, goals.row(static_cast<Eigen::Index>(k)), 1, 0});
-    if (options.symmetry && options.marker_weight > 0) result.twins = add_twins(rest, source.triangles, target, pins);
-    const ShellLevels shells = shell_levels(rest, source.triangles, pins, {250, 4});
+    const Sides sides = prepared(rest, source.triangles, on_the_grid, target_mesh.triangles, pins,
+                                 options.symmetry && options.marker_weight > 0);
+    const FitTarget& target = *sides.target;
+    const ShellLevels& shells = sides.shells;
+    result.twins = static_cast<int>(shells.pins[0].size() - markers.size());
 
     const std::size_t levels = shells.levels.size();
     bool going = keep_going(progress, 0.1, "posing");
