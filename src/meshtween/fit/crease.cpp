@@ -68,7 +68,12 @@ Points wanted(const Points& x, const Topology& topology, const FitTarget& target
 
 // How far the mesh around a vertex lies from the target, squared: the middles of its edges and triangles.
 double distance_around(Eigen::Index i, const Points& x, const Shell& shell, const FitTarget& target) {
-    const auto squared = [&](const Point& at) { return target.index.closest(at).squared_distance; };
+    int last = -1; // where the last answer lay is near the next
+    const auto squared = [&](const Point& at) {
+        const ClosestPoint there = target.index.closest(at, last);
+        last = there.where.triangle;
+        return there.squared_distance;
+    };
     double sum = 0;
     for (const int j : shell.topology.neighbours[i]) sum += squared((x.row(i) + x.row(j)) / 2);
     for (const int t : shell.topology.vertex_triangles[i]) {

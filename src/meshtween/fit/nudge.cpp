@@ -71,10 +71,12 @@ Around around(const Ground& ground, const Points& x, Eigen::Index vertex, double
         const Pin& pin = ground.pins[idx(k)];
         result.markers += (position(x, triangles, pin.where) - pin.target).squaredNorm();
     }
+    int last = -1; // where the last answer lay is near the next
     for (const int t : ground.shell.topology.vertex_triangles[vertex]) {
         const Point centre = (x.row(triangles(t, 0)) + x.row(triangles(t, 1)) + x.row(triangles(t, 2))) / 3;
         const Point area = double_area_normal(x, triangles, t);
-        const Facing there = facing(centre, area, ground.target);
+        const Facing there = facing(centre, area, ground.target, last);
+        last = there.place;
         if (there.into()) result.cost += as_such + there.detour / ground.unit - by_cosine * there.cosine;
         result.cost += per_square * there.squared_distance;
         if (result.cost > most) break;
@@ -115,7 +117,7 @@ void to_best_place(const Ground& ground, Points& x, Eigen::Index vertex) {
         for (int k = 0; k < directions; ++k) {
             const double angle = 2 * EIGEN_PI * k / directions;
             const Point way = std::cos(angle) * u + std::sin(angle) * v;
-            try_over(ground.target.index.closest(Point(start + step * shortest * way)));
+            try_over(ground.target.index.closest(Point(start + step * shortest * way), here.where.triangle));
         }
     x.row(vertex) = place;
 }

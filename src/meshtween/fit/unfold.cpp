@@ -196,7 +196,7 @@ Points set_down(const FitTarget& target, const Piece& piece) {
     Points goals = piece.x, now = piece.x;
     for (Eigen::Index i = 0; i < energy.free; ++i) {
         const Compatible compatible{energy.normals[idx(i)], least_cosine};
-        const ClosestPoint onto = target.index.closest(Point(piece.x.row(i)), compatible, reach);
+        const ClosestPoint onto = target.index.closest(Point(piece.x.row(i)), compatible, reach, piece.places[idx(i)]);
         if (onto.found()) goals.row(i) = onto.position;
     }
     std::vector<double> share(piece.vertices.size(), 1.0);
