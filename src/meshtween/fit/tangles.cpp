@@ -88,6 +88,33 @@ Tangles tangles(TangleSearch& search, const Points& positions, const Tangles& be
     return fresh;
 }
 
+Points without_new_cuts(TangleSearch& search, const Points& before, const Tangles& left, const Points& now,
+                        const std::vector<int>& places) {
+    if (!search.known) return now;
+    const Triangles& triangles = search.shell.triangles;
+    std::vector<char> chosen(idx(triangles.rows()), 0);
+    for (Eigen::Index t = 0; t < triangles.rows(); ++t)
+        for (int k = 0; k < 3; ++k)
+            if (const int place = places[idx(triangles(t, k))]; place >= 0)
+                chosen[idx(t)] |= search.known->target[idx(place)];
+    for (const auto& pair : search.known->source)
+        for (const int t : pair) chosen[idx(t)] = 1;
+    Points result = now;
+    for (bool back = true; back;) {
+        back = false;
+        for (const auto& pair : new_cuts(search, result, chosen)) {
+            if (std::binary_search(left.cuts.begin(), left.cuts.end(), pair)) continue;
+            for (const int t : pair)
+                for (int k = 0; k < 3; ++k) {
+                    const int i = triangles(t, k);
+                    back = back || result.row(i) != before.row(i);
+                    result.row(i) = before.row(i);
+                }
+        }
+    }
+    return result;
+}
+
 std::vector<char> touched(const Shell& shell, const Points& from, const Points& to) {
     std::vector<char> result(idx(shell.triangles.rows()), 0);
     for (Eigen::Index i = 0; i < from.rows(); ++i)

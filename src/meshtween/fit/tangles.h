@@ -42,6 +42,12 @@ Tangles tangles(TangleSearch& search, const Points& positions, std::vector<int> 
 // The same after the vertices of the `moved` triangles, a flag each, have moved.
 Tangles tangles(TangleSearch& search, const Points& positions, const Tangles& before, const std::vector<char>& moved);
 
+// `now`, but the vertices of new cuts that were none `before` stay as they were. After a small move these are looked
+// for beside places where the shapes cut themselves, if that is known: sheets that touch lie there. `places`: the
+// target's triangle at each vertex, or -1.
+Points without_new_cuts(TangleSearch& search, const Points& before, const Tangles& left, const Points& now,
+                        const std::vector<int>& places);
+
 // A flag a triangle: a vertex of it is elsewhere.
 std::vector<char> touched(const Shell& shell, const Points& from, const Points& to);
 
