@@ -34,23 +34,6 @@ ClosestPoint place_on_open(const ClosestPointIndex& index, const Shell& shell, c
     return closest;
 }
 
-struct BackPull {
-    SurfacePoint where; // on the mesh
-    Point way{0, 0, 0}, direction{0, 0, 0};
-    double strength = 0;
-};
-
-// Which pulls reach each vertex, in their order.
-Interpolation reached_by(const std::vector<BackPull>& pulls, const Shell& shell) {
-    std::vector<std::array<int, 3>> corners;
-    corners.reserve(pulls.size());
-    for (const BackPull& p : pulls) {
-        const auto f = shell.triangles.row(p.where.triangle);
-        corners.push_back({f[0], f[1], f[2]});
-    }
-    return interpolation(shell.rest.rows(), std::move(corners), {});
-}
-
 double mean_edge(const Shell& shell, const Points& positions) {
     const double sum = parallel_sum(std::ssize(shell.topology.edges), 0.0, [&](std::ptrdiff_t e) {
         const auto [i, j] = shell.topology.edges[idx(e)].vertices;
@@ -61,8 +44,8 @@ double mean_edge(const Shell& shell, const Points& positions) {
 
 } // namespace
 
-void add_back_pulls(const Shell& shell, const Points& positions, const FitTarget& target, double weight, double reach,
-                    RelaxMemory& memory, std::vector<Eigen::Matrix3d>& blocks, Points& right) {
+std::vector<SamplePull> back_pulls(const Shell& shell, const Points& positions, const FitTarget& target, double weight,
+                                   double reach, RelaxMemory& memory) {
     if (memory.positions)
         memory.positions->move(positions);
     else
@@ -73,7 +56,7 @@ void add_back_pulls(const Shell& shell, const Points& positions, const FitTarget
     const Eigen::Index all = target.positions.rows(),
                        step = std::max<Eigen::Index>(1, all / std::max<Eigen::Index>(least_samples, positions.rows()));
     const double edge = mean_edge(shell, positions);
-    std::vector<BackPull> pulls(idx((all + step - 1) / step));
+    std::vector<SamplePull> pulls(idx((all + step - 1) / step));
     memory.back_places.resize(pulls.size(), -1);
     parallel_for(
         std::ssize(pulls),
@@ -92,24 +75,8 @@ void add_back_pulls(const Shell& shell, const Points& positions, const FitTarget
                                  std::max(0.0, facing.dot(normal))};
         },
         64);
-    std::erase_if(pulls, [](const BackPull& p) { return p.where.triangle < 0; });
-    const Interpolation reached = reached_by(pulls, shell);
-    parallel_for(positions.rows(), [&](std::ptrdiff_t v) {
-        Eigen::Matrix3d drawn = Eigen::Matrix3d::Zero();
-        Point towards(0, 0, 0);
-        for (auto e = idx(reached.first[idx(v)]); e < idx(reached.first[idx(v) + 1]); ++e) {
-            const BackPull& p = pulls[idx(reached.fine[e])];
-            const double share = p.where.barycentric[reached.slot[e]];
-            const Eigen::Matrix3d pull = p.strength * p.direction.transpose() * p.direction;
-            drawn += share * pull;
-            towards += share * (Point(positions.row(v)) + p.way) * pull;
-        }
-        // No vertex is drawn harder than it clings itself: much that is uncovered must not tear at the few that are
-        // near.
-        const double share = std::min(1.0, weight * shell.area[idx(v)] / std::max(drawn.trace(), 1e-300));
-        blocks[idx(v)] += share * drawn;
-        right.row(v) += share * towards;
-    });
+    std::erase_if(pulls, [](const SamplePull& p) { return p.where.triangle < 0; });
+    return pulls;
 }
 
 } // namespace meshtween

@@ -3,19 +3,18 @@
 
 #include "meshtween/core/mesh.h"
 #include "meshtween/fit/refine.h"
+#include "meshtween/fit/sample_pulls.h"
 #include "meshtween/fit/shell.h"
 
 #include <vector>
 
 namespace meshtween {
 
-// Adds to a level's system (blocks, one a vertex, and right side, n x 3) the pulls of the target's vertices, about as
-// many as the mesh has. Each draws the closest compatible place of the mesh no further than `reach` (diagonals)
-// straight towards itself, shared among the corners of the triangle there. All of them together weigh 1 where the mesh is
-// near and `weight` where it is an edge or more away, since flat triangles miss a round surface everywhere; no vertex is
-// drawn by more than `weight` times its share of the area. What lies beyond an open mesh's border does not
-// pull.
-void add_back_pulls(const Shell& shell, const Points& positions, const FitTarget& target, double weight, double reach,
-                    RelaxMemory& memory, std::vector<Eigen::Matrix3d>& blocks, Points& right);
+// The pulls of the target's vertices, about as many as the mesh has. Each draws the closest compatible place of the
+// mesh no further than `reach` (diagonals) straight towards itself. All of them together weigh 1 where the mesh is near
+// and `weight` where it is an edge or more away, since flat triangles miss a round surface everywhere; no vertex is
+// drawn by more than `weight` times its share of the area. What lies beyond an open mesh's border does not pull.
+std::vector<SamplePull> back_pulls(const Shell& shell, const Points& positions, const FitTarget& target, double weight,
+                                   double reach, RelaxMemory& memory);
 
 } // namespace meshtween

@@ -9,6 +9,7 @@
 
 #include "meshtween/core/parallel.h"
 #include "meshtween/fit/back_pulls.h"
+#include "meshtween/fit/centre_pulls.h"
 #include "meshtween/geometry/measure.h"
 #include "meshtween/geometry/place_on_triangle.h"
 
@@ -126,6 +127,31 @@ std::vector<PinPull> pin_pulls(const Shell& shell, const std::vector<Pin>& pins,
         pulls.push_back(pull);
     }
     return pulls;
+}
+
+// Pulls from the target's side and, where they have a share, of the triangles' centres. With these, what is near acts
+// on points within triangles; what is further off would tear at them.
+void add_sample_pulls(const Shell& shell, const Points& positions, const FitTarget& target, const RelaxWeights& weights,
+                      RelaxMemory& memory, BlockSystem& system, Points& right) {
+    constexpr double near = 0.05; // of a triangle's size
+    const Triangles& triangles = shell.triangles;
+    const double back = weights.back * weights.closeness;
+    std::vector<SamplePull> pulls = back_pulls(shell, positions, target, back, weights.reach, memory);
+    const std::vector<double> shares = bearable(pulls, triangles, shell.area, back);
+    if (weights.centres <= 0) {
+        add_lumped(pulls, shares, positions, triangles, system, right);
+        return;
+    }
+    for (SamplePull p : centre_pulls(shell, positions, target, weights.least_cosine, weights.reach, memory)) {
+        p.strength *= weights.centres * weights.closeness;
+        pulls.push_back(p);
+    }
+    const auto far = std::stable_partition(pulls.begin(), pulls.end(), [&](const SamplePull& p) {
+        return p.way.squaredNorm() < near * near * triangle_area(positions, triangles, p.where.triangle);
+    });
+    add_lumped({far, pulls.end()}, shares, positions, triangles, system, right);
+    pulls.erase(far, pulls.end());
+    add_together(pulls, shares, positions, triangles, system, right);
 }
 
 // The forms of one level with their weights; blocks are still nought, pins are in.
@@ -263,6 +289,7 @@ Points relax(const ShellLevels& shells, std::size_t level, const Points& positio
     add_pins(shell, shells.pins[level], pulls, right);
     if (weights.closeness > 0) {
         const Points normals = vertex_normals(positions, shell.triangles);
+        const double clinging = (1 - weights.centres) * weights.closeness;
         memory.places.resize(idx(n), -1);
         parallel_for(
             n,
@@ -273,20 +300,19 @@ Points relax(const ShellLevels& shells, std::size_t level, const Points& positio
                     target.index.closest(Point(positions.row(i)), compatible, weights.reach, place);
                 if (closest.found()) place = closest.where.triangle;
                 const Pull p = pull(target, closest, normals.row(i), shell.topology.on_boundary[idx(i)],
-                                    weights.closeness * shell.area[idx(i)], weights);
+                                    clinging * shell.area[idx(i)], weights);
                 systems[0].blocks[idx(i)] = p.block;
                 right.row(i) += p.right;
             },
             256);
-        add_back_pulls(shell, positions, target, weights.back * weights.closeness, weights.reach, memory,
-                       systems[0].blocks, right);
+        add_sample_pulls(shell, positions, target, weights, memory, systems[0], right);
         if (target.border_index) add_border_pulls(shell, positions, target, weights, systems[0].blocks, right);
     }
     std::unique_ptr<Multigrid> solver = std::move(memory.pose);
     if (!solver) {
         for (std::size_t k = level + 1; k < shells.levels.size(); ++k) {
             systems.push_back(level_system(shells, k, weights, pulls));
-            systems.back().blocks = to_coarse(shells.up[k - 1], systems[systems.size() - 2].blocks);
+            systems.back().blocks = to_coarse(shells.up[k - 1], systems[systems.size() - 2]);
         }
         solver = std::make_unique<Multigrid>(std::move(systems), shells.up, level);
     }

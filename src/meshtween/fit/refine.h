@@ -67,6 +67,7 @@ struct RelaxWeights {
     double pins = 100;     // of all pins together, beside the closeness of the whole surface
     double closeness = 1;  // 0 leaves the surface out: only the pins pull
     double back = 1;       // of pulls from the target's side, beside closeness, where the mesh is an edge away
+    double centres = 0;    // share of closeness that the triangles' centres have, beside their corners'; finest level
     double border = 4;     // of pulls of the mesh's border onto the target's, beside closeness
     double least_cosine = 0.5;
     double reach = 0.3;     // closest points further away are not asked
@@ -80,6 +81,7 @@ struct RelaxWeights {
 // closeness all rounds must have the same weights.
 struct RelaxMemory {
     std::vector<int> places;                      // a vertex: the target's triangle of the last answer
+    std::vector<int> centre_places;               // a triangle: the target's triangle
     std::vector<int> back_places;                 // a place of the target: the mesh's triangle
     std::unique_ptr<ClosestPointIndex> positions; // the mesh, where the last round found it
     std::unique_ptr<Multigrid> pose;              // without closeness the system depends on the weights alone

@@ -29,6 +29,18 @@ Eigen::RowVector3d row_times(const BlockSystem& system, const Points& x, std::pt
     return {sum[0], sum[1], sum[2]};
 }
 
+// body(sample, weight) for the samples that a point is a corner of.
+template <typename Body>
+void each_sample(const SampleTerms& samples, std::ptrdiff_t point, const Body& body) {
+    if (samples.empty()) return;
+    const Interpolation& at = samples.at;
+    for (auto e = static_cast<std::size_t>(at.first[static_cast<std::size_t>(point)]);
+         e < static_cast<std::size_t>(at.first[static_cast<std::size_t>(point) + 1]); ++e) {
+        const auto sample = static_cast<std::size_t>(at.fine[e]);
+        body(sample, at.weights[sample][at.slot[e]]);
+    }
+}
+
 } // namespace
 
 std::size_t Pattern::at(int row, int col) const {
@@ -60,9 +72,31 @@ Pattern pattern(Lists rows) {
 }
 
 Points apply(const BlockSystem& system, const Points& x) {
+    const SampleTerms& samples = system.samples;
+    std::vector<double> along(samples.directions.size());
+    parallel_for(std::ssize(along), [&](std::ptrdiff_t s) {
+        const auto k = static_cast<std::size_t>(s);
+        Point at(0, 0, 0);
+        for (int c = 0; c < 3; ++c)
+            at += samples.at.weights[k][c] * x.row(samples.at.points[k][static_cast<std::size_t>(c)]);
+        along[k] = samples.directions[k].dot(at);
+    });
     Points y(x.rows(), 3);
-    parallel_for(x.rows(), [&](std::ptrdiff_t i) { y.row(i) = row_times(system, x, i); });
+    parallel_for(x.rows(), [&](std::ptrdiff_t i) {
+        y.row(i) = row_times(system, x, i);
+        each_sample(samples, i,
+                    [&](std::size_t k, double weight) { y.row(i) += weight * along[k] * samples.directions[k]; });
+    });
     return y;
+}
+
+Matrix3d lumped_block(const BlockSystem& system, std::ptrdiff_t i) {
+    Matrix3d block = system.blocks[static_cast<std::size_t>(i)];
+    each_sample(system.samples, i, [&](std::size_t k, double weight) {
+        const Point& d = system.samples.directions[k];
+        block += weight * d.transpose() * d;
+    });
+    return block;
 }
 
 Interpolation interpolation(std::ptrdiff_t coarse_count, std::vector<std::array<int, 3>> points,
@@ -87,24 +121,69 @@ Interpolation interpolation(std::ptrdiff_t coarse_count, std::vector<std::array<
     return result;
 }
 
-std::vector<Matrix3d> to_coarse(const Interpolation& interpolation, const std::vector<Matrix3d>& fine) {
+std::vector<Matrix3d> to_coarse(const Interpolation& interpolation, const BlockSystem& fine) {
     std::vector<Matrix3d> coarse(interpolation.first.size() - 1, Matrix3d::Zero());
     parallel_for(static_cast<std::ptrdiff_t>(coarse.size()), [&](std::ptrdiff_t c) {
         const auto i = static_cast<std::size_t>(c);
         for (auto e = static_cast<std::size_t>(interpolation.first[i]);
              e < static_cast<std::size_t>(interpolation.first[i + 1]); ++e) {
-            const auto from = static_cast<std::size_t>(interpolation.fine[e]);
-            coarse[i] += interpolation.weights[from][interpolation.slot[e]] * fine[from];
+            const int from = interpolation.fine[e];
+            coarse[i] +=
+                interpolation.weights[static_cast<std::size_t>(from)][interpolation.slot[e]] * lumped_block(fine, from);
         }
     });
     return coarse;
 }
 
+namespace {
+
+// Samples rounded to floats, as conjugate gradients ask for them.
+struct FloatSamples {
+    std::vector<std::array<int, 3>> corners; // a sample
+    std::vector<std::array<float, 3>> weights;
+    FloatPoints directions;
+    std::vector<int> first, reached;               // of each point: the samples that it is a corner of
+    std::vector<float> shares;                     // its weight in each
+    std::vector<std::array<FloatPoint, 3>> lumped; // a point: columns of what its samples add to its block
+};
+
+FloatSamples float_samples(const BlockSystem& system) {
+    const SampleTerms& samples = system.samples;
+    FloatSamples result;
+    if (samples.empty()) return result;
+    const Interpolation& at = samples.at;
+    result.corners = at.points;
+    result.weights.resize(at.points.size());
+    result.directions.resize(at.points.size());
+    parallel_for(std::ssize(result.weights), [&](std::ptrdiff_t s) {
+        const auto k = static_cast<std::size_t>(s);
+        for (int c = 0; c < 3; ++c) {
+            result.weights[k][static_cast<std::size_t>(c)] = static_cast<float>(at.weights[k][c]);
+            result.directions[k][c] = static_cast<float>(samples.directions[k][c]);
+        }
+    });
+    result.first = at.first;
+    result.reached = at.fine;
+    result.shares.resize(at.fine.size());
+    result.lumped.resize(system.blocks.size());
+    parallel_for(std::ssize(system.blocks), [&](std::ptrdiff_t i) {
+        result.lumped[static_cast<std::size_t>(i)] =
+            float_columns(lumped_block(system, i) - system.blocks[static_cast<std::size_t>(i)]);
+        for (auto e = static_cast<std::size_t>(at.first[static_cast<std::size_t>(i)]);
+             e < static_cast<std::size_t>(at.first[static_cast<std::size_t>(i) + 1]); ++e)
+            result.shares[e] = static_cast<float>(at.weights[static_cast<std::size_t>(at.fine[e])][at.slot[e]]);
+    });
+    return result;
+}
+
+} // namespace
+
 struct Multigrid::Data {
     VCycle cycle;
     BlockSystem finest;
+    FloatSamples samples;
     Data(std::vector<BlockSystem> systems, const std::vector<Interpolation>& interpolations, std::size_t offset)
-        : cycle(systems, interpolations, offset), finest(std::move(systems[0])) {}
+        : cycle(systems, interpolations, offset), finest(std::move(systems[0])), samples(float_samples(finest)) {}
 };
 
 namespace {
@@ -114,9 +193,9 @@ constexpr int sweeps_a_cycle = 6; // of Jacobi, in time
 // Conjugate gradients in floats, from x = 0 on; with another preconditioner they start anew from where they are.
 class Gradients {
 public:
-    Gradients(const VCycle& cycle, FloatPoints right)
-        : cycle_(cycle), grid_(cycle.finest()), r_(std::move(right)), x_(r_.size()), z_(r_.size()), p_(r_.size()),
-          q_(r_.size()) {}
+    Gradients(const VCycle& cycle, const FloatSamples& samples, FloatPoints right)
+        : cycle_(cycle), grid_(cycle.finest()), samples_(samples), along_(samples.directions.size()),
+          r_(std::move(right)), x_(r_.size()), z_(r_.size()), p_(r_.size()), q_(r_.size()) {}
     const FloatPoints& x() const { return x_; }
 
     struct Run {
@@ -130,8 +209,9 @@ public:
         const double enough = tolerance * rz;
         p_ = z_;
         while (done.iterations < iterations && rz > enough && rz > 0) {
+            look_along();
             const double pq = sum([&](std::size_t i) {
-                q_[i] = row_times(grid_, p_, i);
+                q_[i] = times_p(i);
                 return product(p_[i], q_[i]);
             });
             if (!(pq > 0)) break;
@@ -176,8 +256,35 @@ private:
         });
     }
 
+    // What each sample pulls at p with, for its corners to share.
+    void look_along() {
+        parallel_for(
+            std::ssize(along_),
+            [&](std::ptrdiff_t s) {
+                const auto k = static_cast<std::size_t>(s);
+                FloatPoint at{};
+                for (std::size_t c = 0; c < 3; ++c)
+                    at += samples_.weights[k][c] * p_[static_cast<std::size_t>(samples_.corners[k][c])];
+                const FloatPoint along = samples_.directions[k] * at;
+                along_[k] = (along[0] + along[1] + along[2]) * samples_.directions[k];
+            },
+            1024);
+    }
+    // Row i of the system times p. The grid holds the samples as if all corners moved alike: here is what they do not.
+    FloatPoint times_p(std::size_t i) const {
+        FloatPoint result = row_times(grid_, p_, i);
+        if (along_.empty()) return result;
+        result -= times(samples_.lumped[i], p_[i]);
+        for (auto e = static_cast<std::size_t>(samples_.first[i]); e < static_cast<std::size_t>(samples_.first[i + 1]);
+             ++e)
+            result += samples_.shares[e] * along_[static_cast<std::size_t>(samples_.reached[e])];
+        return result;
+    }
+
     const VCycle& cycle_;
     const FloatGrid& grid_;
+    const FloatSamples& samples_;
+    FloatPoints along_;
     FloatPoints r_, x_, z_, p_, q_;
 };
 
@@ -207,15 +314,18 @@ int Multigrid::solve(const Points& right, Points& x, int cycles, double toleranc
     const VCycle& cycle = data_->cycle;
     int iterations = 0;
     constexpr int refinements = 3; // a cycle of one grid leaves 1e-7 each time
-    for (int k = 0; k < (cycle.direct() ? refinements : 1); ++k) {
+    const bool direct = cycle.direct() && data_->finest.samples.empty();
+    for (int k = 0; k < (direct ? refinements : 1); ++k) {
+        const Points left = right - apply(data_->finest, x);
         FloatPoints residual(static_cast<std::size_t>(x.rows()));
         parallel_for(x.rows(), [&](std::ptrdiff_t i) {
-            const Eigen::RowVector3d r = right.row(i) - row_times(data_->finest, x, i);
-            for (int c = 0; c < 3; ++c) residual[static_cast<std::size_t>(i)][c] = static_cast<float>(r[c]);
+            for (int c = 0; c < 3; ++c) residual[static_cast<std::size_t>(i)][c] = static_cast<float>(left(i, c));
         });
-        Gradients gradients(cycle, std::move(residual));
-        iterations +=
-            cycle.direct() ? gradients.run(true, 1, 0).iterations : run(gradients, cycles, tolerance * tolerance);
+        Gradients gradients(cycle, data_->samples, std::move(residual));
+        if (cycle.direct())
+            iterations += gradients.run(true, direct ? 1 : cycles, direct ? 0 : tolerance * tolerance).iterations;
+        else
+            iterations += run(gradients, cycles, tolerance * tolerance);
         parallel_for(x.rows(), [&](std::ptrdiff_t i) {
             for (int c = 0; c < 3; ++c) x(i, c) += double{gradients.x()[static_cast<std::size_t>(i)][c]};
         });

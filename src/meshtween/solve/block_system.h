@@ -22,30 +22,44 @@ struct Pattern {
 // Columns, a list a row with its diagonal among them, sorted and rid of doubles.
 Pattern pattern(Lists rows);
 
-// Block (i, j) is values(i, j) times the identity, plus blocks[i] where i = j.
-struct BlockSystem {
-    std::shared_ptr<const Pattern> pattern;
-    std::vector<double> values;          // one an entry of the pattern
-    std::vector<Eigen::Matrix3d> blocks; // n, symmetric
-};
-
-Points apply(const BlockSystem& system, const Points& x); // n x 3: the matrix times x
-
 // Values on a coarse set of points, and what they are on a finer one: fine_i = sum_k weight_ik coarse_(point_ik).
 struct Interpolation {
     std::vector<std::array<int, 3>> points; // a row a fine point
     std::vector<Eigen::RowVector3d> weights;
     std::vector<int> first{0}, fine, slot; // of each coarse point: the fine points that it reaches
 };
+// Squares of what points within triangles are along a direction: (direction . sum_k weight_k x_(point_k))^2 each. The
+// weights of a point add up to 1.
+struct SampleTerms {
+    Interpolation at; // the samples are its fine points
+    std::vector<Point> directions;
+    bool empty() const { return directions.empty(); }
+};
+
+// Block (i, j) is values(i, j) times the identity, plus blocks[i] where i = j, plus what the samples couple.
+struct BlockSystem {
+    std::shared_ptr<const Pattern> pattern;
+    std::vector<double> values;          // one an entry of the pattern
+    std::vector<Eigen::Matrix3d> blocks; // n, symmetric
+    SampleTerms samples;                 // or none
+};
+
+Points apply(const BlockSystem& system, const Points& x); // n x 3: the matrix times x
+
 Interpolation interpolation(std::ptrdiff_t coarse_count, std::vector<std::array<int, 3>> points,
                             std::vector<Eigen::RowVector3d> weights);
-// The blocks of a coarser system: each fine block shared out by its weights (the transpose, lumped).
-std::vector<Eigen::Matrix3d> to_coarse(const Interpolation& interpolation, const std::vector<Eigen::Matrix3d>& fine);
+// blocks[i] and the samples' terms there, each shared out among its corners as if all of them moved alike. With these
+// blocks alone a system is never less than it is with the samples.
+Eigen::Matrix3d lumped_block(const BlockSystem& system, std::ptrdiff_t i);
+
+// The blocks of a coarser system: each fine one, lumped, shared out by its weights (the transpose, lumped).
+std::vector<Eigen::Matrix3d> to_coarse(const Interpolation& interpolation, const BlockSystem& fine);
 
 // One system on several grids, finest first, prepared to be solved.
 class Multigrid {
 public:
-    // interpolations[k] leads from grid k + 1 to grid k and must outlive this. The coarsest is factorised. Throws
+    // interpolations[k] leads from grid k + 1 to grid k and must outlive this. Only the finest may have samples. The
+    // coarsest is factorised. Throws
     // Error(computation) where that one is not positive definite.
     Multigrid(std::vector<BlockSystem> systems, const std::vector<Interpolation>& interpolations, std::size_t offset);
     ~Multigrid();

@@ -12,7 +12,6 @@ namespace meshtween {
 namespace {
 
 using Eigen::Matrix3d;
-using Columns = std::array<FloatPoint, 3>;
 
 constexpr double damping = 0.6; // under 2 / the largest eigenvalue of D^-1 A
 constexpr int sweeps = 2;       // before and after each visit of the coarser grid
@@ -20,13 +19,6 @@ constexpr std::ptrdiff_t grain = 2048;
 
 std::size_t idx(std::ptrdiff_t i) {
     return static_cast<std::size_t>(i);
-}
-
-Columns columns(const Matrix3d& m) {
-    Columns result{};
-    for (int c = 0; c < 3; ++c)
-        for (int r = 0; r < 3; ++r) result[idx(c)][r] = static_cast<float>(m(r, c));
-    return result;
 }
 
 Eigen::SparseMatrix<double> lower_triangle(const BlockSystem& system) {
@@ -37,6 +29,7 @@ Eigen::SparseMatrix<double> lower_triangle(const BlockSystem& system) {
         greatest = std::max(greatest, system.values[idx(p.diagonal[i])] + system.blocks[i].trace());
     for (std::size_t row = 0; row < system.blocks.size(); ++row) {
         const int i = static_cast<int>(row);
+        const Matrix3d block = lumped_block(system, i);
         for (auto e = idx(p.first[row]); e < idx(p.first[row + 1]); ++e) {
             const int j = p.column[e];
             const double value = system.values[e];
@@ -46,7 +39,7 @@ Eigen::SparseMatrix<double> lower_triangle(const BlockSystem& system) {
                 for (int k = 0; k < 3; ++k)
                     for (int l = 0; l <= k; ++l)
                         entries.emplace_back(3 * i + k, 3 * i + l,
-                                             system.blocks[row](k, l) + (k == l ? value + 1e-12 * greatest : 0));
+                                             block(k, l) + (k == l ? value + 1e-12 * greatest : 0));
         }
     }
     const auto n = 3 * static_cast<Eigen::Index>(system.blocks.size());
@@ -57,6 +50,13 @@ Eigen::SparseMatrix<double> lower_triangle(const BlockSystem& system) {
 
 } // namespace
 
+std::array<FloatPoint, 3> float_columns(const Matrix3d& block) {
+    std::array<FloatPoint, 3> result{};
+    for (int c = 0; c < 3; ++c)
+        for (int r = 0; r < 3; ++r) result[idx(c)][r] = static_cast<float>(block(r, c));
+    return result;
+}
+
 FloatGrid float_grid(const BlockSystem& system) {
     FloatGrid grid;
     grid.pattern = system.pattern;
@@ -65,10 +65,11 @@ FloatGrid float_grid(const BlockSystem& system) {
     grid.smoother.resize(system.blocks.size());
     parallel_for(std::ssize(system.blocks), [&](std::ptrdiff_t i) {
         const double value = system.values[idx(system.pattern->diagonal[idx(i)])];
-        const Matrix3d& own = system.blocks[idx(i)];
+        const Matrix3d own = lumped_block(system, i);
         const Matrix3d whole = own + value * Matrix3d::Identity();
-        grid.blocks[idx(i)] = columns(own);
-        grid.smoother[idx(i)] = columns(whole.trace() > 0 ? Matrix3d(damping * whole.inverse()) : Matrix3d::Zero());
+        grid.blocks[idx(i)] = float_columns(own);
+        grid.smoother[idx(i)] =
+            float_columns(whole.trace() > 0 ? Matrix3d(damping * whole.inverse()) : Matrix3d::Zero());
     });
     return grid;
 }

@@ -13,7 +13,7 @@ namespace meshtween {
 
 using FloatPoint = float __attribute__((vector_size(16))); // x, y, z, 0
 
-// A BlockSystem rounded to floats, with what a smoother needs.
+// A BlockSystem rounded to floats, its samples lumped, with what a smoother needs.
 struct FloatGrid {
     std::shared_ptr<const Pattern> pattern;
     std::vector<float> values;
@@ -21,6 +21,7 @@ struct FloatGrid {
     std::vector<std::array<FloatPoint, 3>> smoother; // columns of the whole diagonal block's inverse, damped
 };
 FloatGrid float_grid(const BlockSystem& system);
+std::array<FloatPoint, 3> float_columns(const Eigen::Matrix3d& block);
 
 using FloatPoints = std::vector<FloatPoint>;
 
