@@ -69,6 +69,17 @@ TEST(Align, AxesFindATurnedCopy) {
     EXPECT_LT(worst(align_axes(m.positions, m.triangles, to, m.triangles)(m.positions), to), 1e-9);
 }
 
+// The axes of what is nearly round turn anywhere.
+TEST(Align, AxesThatTellNothingLeaveShapesAsTheyStand) {
+    const Mesh m = sphere(3);
+    Mesh bumpy = m;
+    for (auto row : bumpy.positions.rowwise())
+        row *= 1 + 0.02 * std::sin(4 * row[0] + 5 * row[1]) * std::cos(3 * row[2]);
+    const Similarity s = align_axes(m.positions, m.triangles, bumpy.positions, bumpy.triangles);
+    EXPECT_EQ(s.rotation, Eigen::Matrix3d::Identity());
+    EXPECT_NEAR(s.scale, 1, 0.02);
+}
+
 TEST(Hierarchy, LevelsLieOnTheMeshAndPlacesAreNear) {
     const Mesh m = sphere(5);
     const auto levels = hierarchy(m.positions, m.triangles, {100, 4});

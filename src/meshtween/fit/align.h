@@ -18,8 +18,9 @@ struct Similarity {
 // they do not say is taken as: no turn beyond the least one; scale 1 with a single point.
 Similarity align(const Points& from, const Points& to);
 
-// A guess where nothing matches: centres, areas and principal axes made equal, the axes' directions chosen so that the
-// surfaces lie closest (both ways, by samples). Mirror images are not considered.
+// A guess where nothing matches: centres and areas made equal, and no turn, or principal axes made equal where that
+// brings the surfaces clearly closer (both ways, by samples), the axes' directions chosen so that they lie closest.
+// Mirror images are not considered.
 Similarity align_axes(const Points& from, const Triangles& from_triangles, const Points& to,
                       const Triangles& to_triangles);
 

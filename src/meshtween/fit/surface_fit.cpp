@@ -92,7 +92,8 @@ bool on_one_line(const Points& points) {
 Similarity start(const Mesh& source, const Points& target, const Triangles& target_triangles,
                  std::span<const Marker> markers, const Points& goals, std::vector<std::string>& notes) {
     if (markers.empty()) {
-        notes.push_back("no markers: the start is a guess from the principal axes; look at the result, and place a few "
+        notes.push_back("no markers: the start is a guess, as the files stand or by their principal axes; look at the "
+                        "result, and place a few "
                         "markers if it is turned the wrong way");
         return align_axes(source.positions, source.triangles, target, target_triangles);
     }
