@@ -1,11 +1,14 @@
 #include "meshtween/fit/unfold.h"
 
 #include "meshtween/fit/fold_energy.h"
+#include "meshtween/fit/tangles.h"
+#include "meshtween/geometry/measure.h"
 #include "meshtween/geometry/shapes.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace meshtween;
@@ -97,6 +100,33 @@ TEST(TargetSamples, ShareOutTheSurface) {
         whole += (b - a).cross(c - a).norm() / 2;
     }
     EXPECT_NEAR(area, whole, 1e-9);
+}
+
+// A ball with a horn, the mesh being the target itself: smoothed flat, the horn has to come back.
+TEST(Unfolded, WhatMeltsIsDrawnOutAgainWhereTheTargetHasIt) {
+    Mesh mesh = sphere(4);
+    FoldedPatch patch;
+    for (Eigen::Index i = 0; i < mesh.positions.rows(); ++i) {
+        const double angle = std::acos(std::clamp(mesh.positions(i, 2) / mesh.positions.row(i).norm(), -1.0, 1.0));
+        if (angle < 0.4) mesh.positions.row(i) *= 1 + 0.5 * std::pow(1 - angle / 0.4, 2);
+        if (angle > 1) continue;
+        patch.vertices.push_back(static_cast<int>(i));
+        patch.remote.push_back(angle);
+    }
+    mesh.positions /= diagonal(mesh.positions);
+    const FitTarget target = fit_target(mesh.positions, mesh.triangles);
+    const Shell shell = meshtween::shell(mesh.positions, mesh.triangles);
+    const std::vector<TargetSample> samples = target_samples(target);
+    for (std::size_t k = 0; k < samples.size(); ++k)
+        if (samples[k].position[2] > 0.2) patch.samples.push_back(static_cast<int>(k));
+    patch.melted = 1;
+    const Points places = unfolded(shell, mesh.positions, patch, target, samples, {});
+    EXPECT_NEAR(places.col(2).maxCoeff(), mesh.positions.col(2).maxCoeff(), 0.03);
+    Points now = mesh.positions;
+    for (std::size_t i = 0; i < patch.vertices.size(); ++i)
+        now.row(patch.vertices[i]) = places.row(static_cast<Eigen::Index>(i));
+    TangleSearch search{shell, target, {}};
+    EXPECT_EQ(tangles(search, now).count(), 0u);
 }
 
 } // namespace

@@ -13,10 +13,12 @@
 namespace meshtween {
 namespace {
 
-constexpr int rounds = 8, rounds_without_pulls = 3;
-constexpr int smoothing = 10;        // rounds, of the normals by which a vertex tells the sheet it belongs to
-constexpr double least_cosine = 0.3; // between a vertex's look and the surface's, where it is asked for
-constexpr double near = 0.05;        // diagonals: the surface is looked for no further away
+constexpr int rounds_without_pulls = 3, rounds_with_pulls = 5;
+constexpr int rounds_after_melting = 20; // with pulls: an ear that melted too is drawn out again
+constexpr int melting = 64;              // rounds of smoothing: over six edges or so, a horn's length and more
+constexpr int smoothing = 10;            // rounds, of the normals by which a vertex tells the sheet it belongs to
+constexpr double least_cosine = 0.3;     // between a vertex's look and the surface's, where it is asked for
+constexpr double near = 0.05;            // diagonals: the surface is looked for no further away
 constexpr double stay = 0.3, cover = 0.2, hold_marker = 100; // weights beside closeness
 
 std::size_t idx(std::ptrdiff_t i) {
@@ -187,6 +189,22 @@ std::vector<FoldPull> held_markers(const Shell& shell, Eigen::Index count, const
     return held;
 }
 
+// Vertices go halfway to the mean of their neighbours, the less the further from the fault.
+void melt(const Shell& shell, const FoldedPatch& patch, Points positions, Piece& piece) {
+    const Eigen::Index free = piece.energy.free;
+    for (int round = 0; round < melting; ++round) {
+        for (Eigen::Index i = 0; i < free; ++i) {
+            const auto list = shell.topology.neighbours[piece.vertices[idx(i)]];
+            Point mean(0, 0, 0);
+            for (const int j : list) mean += positions.row(j);
+            mean /= static_cast<double>(list.size());
+            const double share = std::max(0.0, 1 - patch.remote[idx(i)] / patch.melted);
+            piece.x.row(i) += share / 2 * (mean - piece.x.row(i));
+        }
+        for (Eigen::Index i = 0; i < free; ++i) positions.row(piece.vertices[idx(i)]) = piece.x.row(i);
+    }
+}
+
 // The patch onto the surface, each step halved, then refused, where it would crush a triangle: outside a sharp corner
 // of the surface many vertices are closest to one point.
 Points set_down(const FitTarget& target, const Piece& piece) {
@@ -243,10 +261,12 @@ Points unfolded(const Shell& shell, const Points& positions, const FoldedPatch& 
         energy.onto.push_back(share);
         energy.home.push_back(stay * remote * remote * share);
     }
+    if (patch.melted > 0) melt(shell, patch, positions, piece);
     const std::vector<FoldPull> markers = held_markers(shell, positions.rows(), piece, pins);
     LbfgsOptions options;
     options.first_step = 0.2 * piece.edge;
     options.longest_step = 3 * piece.edge;
+    const int rounds = rounds_without_pulls + (patch.melted > 0 ? rounds_after_melting : rounds_with_pulls);
     Points whole = positions, all = piece.x;
     for (int round = 0; round < rounds; ++round) {
         const int smooth = std::max(1, smoothing * (rounds - round) / rounds);

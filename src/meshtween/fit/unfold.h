@@ -21,6 +21,8 @@ struct FoldedPatch {
     std::vector<double> remote; // one each, 0 at the fault to 1 at the patch's rim: how firmly it stays where it is
     std::vector<int> samples;   // of the target, for which the patch answers
     bool any_sheet = true;      // at first every vertex takes the nearest surface, whichever way it looks there
+    double melted = 0; // the part of `remote` within which the patch is smoothed first, or 0: what stands up there
+                       // melts, and what is uncovered of the target draws it out again
 };
 
 // Where the patch's vertices go, a row each; all others hold. Markers inside the patch are drawn to their targets.

@@ -15,6 +15,8 @@ namespace {
 constexpr int tries = 6;         // sizes of a patch
 constexpr int least_rings = 3;   // around a fault
 constexpr double widening = 1.4; // from one size to the next
+constexpr int sweeps = 3;        // over all sizes, while cuts are left
+constexpr int melted_rings = 16; // around cuts that no size of patch mended
 
 std::size_t idx(std::ptrdiff_t i) {
     return static_cast<std::size_t>(i);
@@ -151,6 +153,20 @@ void mend(TangleSearch& search, Patches& patches, const Cover& cover, std::span<
     result.patches += better;
 }
 
+// What stands where the target has nothing, such as a cow's horns on a donkey, ends as a crumple: its layers look every
+// way, so that sliding does not take them apart. Smoothed away first, it is a small flat spot to spread.
+void melted(TangleSearch& search, const Cover& cover, std::span<const Pin> pins, double part, Untangled& result) {
+    for (const bool any_sheet : {true, false}) {
+        if (result.left.cuts.empty()) return;
+        Patches patches = patches_around(search.shell, Tangles{{}, result.left.cuts}, melted_rings);
+        for (FoldedPatch& patch : patches.list) {
+            patch.any_sheet = any_sheet;
+            patch.melted = part;
+        }
+        mend(search, patches, cover, pins, result);
+    }
+}
+
 // The triangles around edges where the mesh is folded by more than a right angle.
 std::vector<char> folded(const Shell& shell, const Points& x) {
     std::vector<char> corner(shell.area.size(), 0), result(idx(shell.triangles.rows()), 0);
@@ -232,15 +248,28 @@ Untangled untangle(TangleSearch& search, const Points& positions, const Tangles&
     if (result.left.count() == 0) return result;
     Cover cover{target_samples(search.target), {}};
     cover.triangles = answering(search.shell, positions, cover.samples);
-    double rings = least_rings;
-    for (int k = 0; k < tries && result.left.count() > 0; ++k, rings *= widening) {
-        result.cancelled = !keep_going(progress, static_cast<double>(k) / tries, "untangling");
-        if (result.cancelled) break;
-        Patches patches = patches_around(search.shell, result.left, static_cast<int>(rings));
-        for (FoldedPatch& patch : patches.list) patch.any_sheet = k % 2 == 0; // each way mends what the other does not
-        mend(search, patches, cover, pins, result);
+    Untangled unmelted;
+    const auto in_vain = [&] { return 2 * result.left.cuts.size() > unmelted.left.cuts.size(); };
+    for (int sweep = 0; sweep < sweeps && !result.cancelled; ++sweep) {
+        if (sweep > 0 && result.left.cuts.empty()) break;
+        if (sweep == 1) unmelted = result;
+        if (sweep > 0) {
+            melted(search, cover, pins, static_cast<double>(sweep) / (sweeps - 1), result);
+            if (in_vain()) continue;
+        }
+        double rings = least_rings;
+        for (int k = 0; k < tries && result.left.count() > 0; ++k, rings *= widening) {
+            result.cancelled = !keep_going(progress, (sweep + static_cast<double>(k) / tries) / sweeps, "untangling");
+            if (result.cancelled) break;
+            Patches patches = patches_around(search.shell, result.left, static_cast<int>(rings));
+            for (FoldedPatch& patch : patches.list)
+                patch.any_sheet = k % 2 == 0; // each way mends what the other does not
+            mend(search, patches, cover, pins, result);
+        }
     }
-    return result;
+    if (unmelted.left.cuts.empty() || !in_vain()) return result;
+    unmelted.cancelled = result.cancelled; // melting costs some of the form, and is worth it where it mends
+    return unmelted;
 }
 
 } // namespace meshtween
