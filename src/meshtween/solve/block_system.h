@@ -28,6 +28,7 @@ struct Interpolation {
     std::vector<Eigen::RowVector3d> weights;
     std::vector<int> first{0}, fine, slot; // of each coarse point: the fine points that it reaches
 };
+
 // Squares of what points within triangles are along a direction: (direction . sum_k weight_k x_(point_k))^2 each. The
 // weights of a point add up to 1.
 struct SampleTerms {
@@ -46,6 +47,7 @@ struct BlockSystem {
 
 Points apply(const BlockSystem& system, const Points& x); // n x 3: the matrix times x
 
+// The lists of what each coarse point reaches are made from `points`, a row a fine point.
 Interpolation interpolation(std::ptrdiff_t coarse_count, std::vector<std::array<int, 3>> points,
                             std::vector<Eigen::RowVector3d> weights);
 // blocks[i] and the samples' terms there, each shared out among its corners as if all of them moved alike. With these
@@ -59,8 +61,7 @@ std::vector<Eigen::Matrix3d> to_coarse(const Interpolation& interpolation, const
 class Multigrid {
 public:
     // interpolations[k] leads from grid k + 1 to grid k and must outlive this. Only the finest may have samples. The
-    // coarsest is factorised. Throws
-    // Error(computation) where that one is not positive definite.
+    // coarsest is factorised. Throws Error(computation) where that one is not positive definite.
     Multigrid(std::vector<BlockSystem> systems, const std::vector<Interpolation>& interpolations, std::size_t offset);
     ~Multigrid();
     Multigrid(Multigrid&&) noexcept;
