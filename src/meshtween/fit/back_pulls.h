@@ -12,8 +12,8 @@ namespace meshtween {
 
 // The pulls of the target's vertices, about as many as the mesh has. Each draws the closest compatible place of the
 // mesh no further than `reach` (diagonals) straight towards itself. All of them together weigh 1 where the mesh is near
-// and `weight` where it is an edge or more away, since flat triangles miss a round surface everywhere; no vertex is
-// drawn by more than `weight` times its share of the area. What lies beyond an open mesh's border does not pull.
+// and `weight` where it is an edge or more away, since flat triangles miss a round surface everywhere. How much
+// of that a vertex bears is for the caller (bearable). What lies beyond an open mesh's border does not pull.
 std::vector<SamplePull> back_pulls(const Shell& shell, const Points& positions, const FitTarget& target, double weight,
                                    double reach, RelaxMemory& memory);
 

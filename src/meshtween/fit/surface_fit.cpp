@@ -36,7 +36,9 @@ constexpr int rounds_a_level = 8;
 // there.
 constexpr double coarsest_back = 100;
 // In the last rounds the whole of each triangle clings, not its corners alone: a quarter of them and three of the
-// centre integrate squares exactly. What lies between corners moves slowly, which takes the solver longer.
+// centre integrate squares exactly. The more unlike the shapes, the less do the target's facets answer to the mesh's;
+// and where triangles are as large as in a mesh of one level, their corners would end far off. What lies between
+// corners moves slowly, which takes the solver longer.
 constexpr double centres_share = 0.75;
 constexpr int whole_rounds = 4, whole_cycles = 20;
 constexpr double calm_turn = 0.35;          // radians: between two faces or standing bodies all turn less
@@ -93,8 +95,7 @@ Similarity start(const Mesh& source, const Points& target, const Triangles& targ
                  std::span<const Marker> markers, const Points& goals, std::vector<std::string>& notes) {
     if (markers.empty()) {
         notes.push_back("no markers: the start is a guess, as the files stand or by their principal axes; look at the "
-                        "result, and place a few "
-                        "markers if it is turned the wrong way");
+                        "result, and place a few markers if it is turned the wrong way");
         return align_axes(source.positions, source.triangles, target, target_triangles);
     }
     Points from(goals.rows(), 3);
