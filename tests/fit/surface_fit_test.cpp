@@ -152,6 +152,22 @@ Mesh sheet(int n) {
     return m;
 }
 
+TEST(Settle, WhatAPinNamesGoesOnWhicheverWayItLooks) {
+    Mesh wall = sheet(4);
+    wall.positions = turn(wall.positions, {0, 1, 0}, std::numbers::pi / 2).rowwise() + Point(0.5, 0, 0.5);
+    const FitTarget target = fit_target(wall.positions, wall.triangles);
+    const Mesh floor = sheet(10);
+    Points x = floor.positions;
+    const int named = 5 * 11 + 5, other = 5 * 11 + 6;
+    for (const int v : {named, other}) x(v, 0) += 0.005; // beside the wall, which stands at a right angle
+    int t = 0;
+    while (floor.triangles(t, 0) != named) ++t;
+    const Pin pin{{t, {1, 0, 0}}, {0, 0, 0}, floor.positions.row(named), 1, 0};
+    const Settled settled = settle(shell(floor.positions, floor.triangles), x, target, std::span(&pin, 1));
+    EXPECT_LT((settled.positions.row(named) - floor.positions.row(named)).norm(), 1e-12);
+    EXPECT_EQ(settled.positions.row(other), x.row(other));
+}
+
 TEST(SurfaceFit, WhatNoMarkerNamesIsCoveredToo) {
     const Mesh m = sphere(4);
     Mesh target = sphere(4);

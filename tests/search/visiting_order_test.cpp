@@ -40,6 +40,20 @@ TEST(VisitingOrder, LeavesAGoodOrderAlone) {
     EXPECT_TRUE(visiting_order(Points(0, 3)).empty());
 }
 
+TEST(VisitingOrder, TheCurveIsTheSameInAnyOrder) {
+    Points points(4000, 3);
+    for (int i = 0; i < 4000; ++i) points.row(i) << (i % 1999) * 1e-6, i, 1; // many to a cell
+    const auto along = [](const Points& p) {
+        Points sorted(p.rows(), 3);
+        const std::vector<int> order = curve_order(p);
+        for (Eigen::Index i = 0; i < p.rows(); ++i) sorted.row(i) = p.row(order[static_cast<std::size_t>(i)]);
+        return sorted;
+    };
+    EXPECT_EQ(along(points), along(points.colwise().reverse()));
+    EXPECT_EQ(curve_order(Points::Constant(3, 3, 2.5)), (std::vector{0, 1, 2}));
+    EXPECT_TRUE(curve_order(Points(0, 3)).empty());
+}
+
 TEST(VisitingOrder, TakesPointsThatAreNotFinite) {
     Points points = random_points(3000);
     points.row(17).setConstant(NAN);

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 namespace meshtween {
 namespace {
@@ -34,6 +35,16 @@ ClosestPoint place_on_open(const ClosestPointIndex& index, const Shell& shell, c
     return closest;
 }
 
+// One of `count`, as if by chance: the same one of any such group would prefer a side, for a fine mesh repeats itself.
+//
+// Steele, Lea, Flood: Fast splittable pseudorandom number generators. OOPSLA 2014 (SplitMix).
+Eigen::Index chosen(std::ptrdiff_t group, int round, Eigen::Index count) {
+    auto z = static_cast<std::uint64_t>(group) + (static_cast<std::uint64_t>(round) << 32) + 0x9e3779b97f4a7c15;
+    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9;
+    z = (z ^ z >> 27) * 0x94d049bb133111eb;
+    return static_cast<Eigen::Index>((z ^ z >> 31) % static_cast<std::uint64_t>(count));
+}
+
 double mean_edge(const Shell& shell, const Points& positions) {
     const double sum = parallel_sum(std::ssize(shell.topology.edges), 0.0, [&](std::ptrdiff_t e) {
         const auto [i, j] = shell.topology.edges[idx(e)].vertices;
@@ -45,7 +56,7 @@ double mean_edge(const Shell& shell, const Points& positions) {
 } // namespace
 
 std::vector<SamplePull> back_pulls(const Shell& shell, const Points& positions, const FitTarget& target, double weight,
-                                   double reach, RelaxMemory& memory) {
+                                   double reach, int round, RelaxMemory& memory) {
     if (memory.positions)
         memory.positions->move(positions);
     else
@@ -54,25 +65,26 @@ std::vector<SamplePull> back_pulls(const Shell& shell, const Points& positions, 
     const auto& rim = shell.topology.on_boundary;
     const bool open = std::find(rim.begin(), rim.end(), 1) != rim.end();
     const Eigen::Index all = target.positions.rows(),
-                       step = std::max<Eigen::Index>(1, all / std::max<Eigen::Index>(least_samples, positions.rows()));
+                       step = std::max<Eigen::Index>(1, all / std::max(least_samples, shell.triangles.rows()));
     const double edge = mean_edge(shell, positions);
     std::vector<SamplePull> pulls(idx((all + step - 1) / step));
     memory.back_places.resize(pulls.size(), -1);
     parallel_for(
         std::ssize(pulls),
         [&](std::ptrdiff_t k) {
-            const Eigen::Index i = k * step;
+            const Eigen::Index group = std::min(step, all - k * step), i = k * step + chosen(k, round, group);
             const Point from = target.positions.row(i), normal = target.normals.row(i);
             int& last = memory.back_places[idx(k)];
             const ClosestPoint place = open ? place_on_open(index, shell, from, normal, reach, last)
                                             : index.closest(from, Compatible{normal, 0}, reach, last);
             if (!place.found()) return;
             last = place.where.triangle;
+            double area = 0;
+            for (Eigen::Index j = 0; j < group; ++j) area += target.area[idx(k * step + j)];
             const Point facing = index.normals().row(last), way = from - place.position;
             const double strength = 1 + (weight - 1) * std::min(1.0, place.squared_distance / (edge * edge));
             pulls[idx(k)] = {place.where, way, place.squared_distance > 1e-18 ? Point(way.normalized()) : facing,
-                             strength * target.area[idx(i)] * static_cast<double>(step) *
-                                 std::max(0.0, facing.dot(normal))};
+                             strength * area * std::max(0.0, facing.dot(normal))};
         },
         64);
     std::erase_if(pulls, [](const SamplePull& p) { return p.where.triangle < 0; });

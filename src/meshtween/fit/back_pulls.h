@@ -10,11 +10,12 @@
 
 namespace meshtween {
 
-// The pulls of the target's vertices, about as many as the mesh has. Each draws the closest compatible place of the
+// The pulls of the target's vertices, at most about as many as the mesh has triangles. Where the target has more, one
+// of several neighbours pulls for all of them, in each round another. Each draws the closest compatible place of the
 // mesh no further than `reach` (diagonals) straight towards itself. All of them together weigh 1 where the mesh is near
-// and `weight` where it is an edge or more away, since flat triangles miss a round surface everywhere. How much
-// of that a vertex bears is for the caller (bearable). What lies beyond an open mesh's border does not pull.
+// and `weight` where it is an edge or more away, since flat triangles miss a round surface everywhere. How much of that
+// a vertex bears is for the caller (bearable). What lies beyond an open mesh's border does not pull.
 std::vector<SamplePull> back_pulls(const Shell& shell, const Points& positions, const FitTarget& target, double weight,
-                                   double reach, RelaxMemory& memory);
+                                   double reach, int round, RelaxMemory& memory);
 
 } // namespace meshtween

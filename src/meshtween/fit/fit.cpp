@@ -8,8 +8,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace meshtween {
@@ -63,24 +61,13 @@ void check_markers(const Mesh& source, std::span<const Marker> markers) {
     }
 }
 
-// By their places, so that the order in a file changes nothing, not even a rounding.
-std::vector<Marker> in_order(std::span<const Marker> markers) {
-    const auto key = [](const Marker& m) {
-        const Point &b = m.source.barycentric, &t = m.target;
-        return std::array<double, 7>{static_cast<double>(m.source.triangle), b[0], b[1], b[2], t[0], t[1], t[2]};
-    };
-    std::vector<Marker> result(markers.begin(), markers.end());
-    std::stable_sort(result.begin(), result.end(), [&](const Marker& a, const Marker& b) { return key(a) < key(b); });
-    return result;
-}
-
 FitResult fit_by_method(const Mesh& source, const Mesh& target, std::span<const Marker> markers,
                         const FitOptions& options, const Progress& progress) {
     switch (options.method) {
     case FitMethod::paper:
         return paper_fit(source, target, markers, options, progress);
     case FitMethod::surface:
-        return surface_fit(source, target, in_order(markers), options, progress);
+        return surface_fit(source, target, markers, options, progress);
     }
     throw Error(ErrorKind::argument, "no such way to fit");
 }

@@ -136,7 +136,7 @@ void add_sample_pulls(const Shell& shell, const Points& positions, const FitTarg
     constexpr double near = 0.05; // of a triangle's size
     const Triangles& triangles = shell.triangles;
     const double back = weights.back * weights.closeness;
-    std::vector<SamplePull> pulls = back_pulls(shell, positions, target, back, weights.reach, memory);
+    std::vector<SamplePull> pulls = back_pulls(shell, positions, target, back, weights.reach, weights.round, memory);
     const std::vector<double> shares = bearable(pulls, triangles, shell.area, back);
     if (weights.centres <= 0) {
         add_lumped(pulls, shares, positions, triangles, system, right);

@@ -75,6 +75,7 @@ struct RelaxWeights {
     int smoothing = 5;      // rounds, of the local frames
     bool with_scale = true; // local frames may grow and shrink
     int cycles = 10;        // of the solver, in time at most
+    int round = 0;          // of the fit: each asks other places of a target that has many
 };
 
 // What one round on a level leaves for the next one there; empty before the first. It changes no result. Without

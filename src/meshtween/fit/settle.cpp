@@ -24,9 +24,18 @@ struct Goals {
     std::vector<int> places;   // n: the triangle of the last answer, a hint for the next; -1 for none
 };
 
+// Vertices that a pin is nearest to: where they belong is known.
+std::vector<char> named_by(std::span<const Pin> pins, const Shell& shell) {
+    std::vector<char> named(shell.area.size(), 0);
+    for (const Pin& pin : pins)
+        for (int k = 0; k < 3; ++k)
+            if (pin.where.barycentric[k] > 0.5) named[idx(shell.triangles(pin.where.triangle, k))] = 1;
+    return named;
+}
+
 // Brings the goals of the vertices in `asked` up to date.
-void find_goals(const Shell& shell, const Points& positions, const FitTarget& target, const SettleOptions& options,
-                const std::vector<int>& asked, Goals& goals) {
+void find_goals(const Shell& shell, const Points& positions, const FitTarget& target, const std::vector<char>& named,
+                const SettleOptions& options, const std::vector<int>& asked, Goals& goals) {
     const Points normals = vertex_normals(positions, shell.triangles);
     const Points directions = border_directions(positions, shell.triangles, shell.topology);
     parallel_for(
@@ -43,7 +52,7 @@ void find_goals(const Shell& shell, const Points& positions, const FitTarget& ta
                     return;
                 }
             }
-            const Compatible compatible{normals.row(i), options.least_cosine};
+            const Compatible compatible{normals.row(i), named[idx(i)] ? -1 : options.least_cosine};
             int& hint = goals.places[idx(i)];
             const ClosestPoint closest = target.index.closest(Point(positions.row(i)), compatible, options.reach, hint);
             if (!closest.found()) return;
@@ -89,8 +98,9 @@ Points guarded(const Shell& shell, const Points& from, const Goals& to, std::vec
     return now;
 }
 
-// Vertices of these triangles and of their neighbours go halfway to the mean of theirs.
-Points relaxed_around(const Shell& shell, const Points& positions, const std::vector<int>& triangles, int rings) {
+// Vertices of these triangles and of their neighbours go halfway to the mean of theirs, but for those held.
+Points relaxed_around(const Shell& shell, const Points& positions, const std::vector<int>& triangles, int rings,
+                      const std::vector<char>& held) {
     std::vector<char> chosen(idx(positions.rows()), 0);
     for (const int t : triangles)
         for (int k = 0; k < 3; ++k) chosen[idx(shell.triangles(t, k))] = 1;
@@ -104,7 +114,7 @@ Points relaxed_around(const Shell& shell, const Points& positions, const std::ve
     Points result = positions;
     for (std::ptrdiff_t i = 0; i < positions.rows(); ++i) {
         const auto list = shell.topology.neighbours[i];
-        if (!chosen[idx(i)] || list.empty() || shell.topology.on_boundary[idx(i)]) continue;
+        if (!chosen[idx(i)] || held[idx(i)] || list.empty() || shell.topology.on_boundary[idx(i)]) continue;
         Point mean(0, 0, 0);
         for (const int j : list) mean += positions.row(j);
         result.row(i) = 0.5 * (positions.row(i) + mean / static_cast<double>(list.size()));
@@ -119,12 +129,14 @@ std::vector<int> flipped_triangles(const Points& positions, const Triangles& tri
     return FacingWatch(triangles, target, EdgeSides::one, at_first_corners(triangles, places)).into(positions);
 }
 
-Settled settle(const Shell& shell, const Points& positions, const FitTarget& target, const SettleOptions& options) {
+Settled settle(const Shell& shell, const Points& positions, const FitTarget& target, std::span<const Pin> pins,
+               const SettleOptions& options) {
+    const std::vector<char> named = named_by(pins, shell);
     const Eigen::Index n = positions.rows();
     Goals goals{positions, Points::Zero(n, 3), std::vector<int>(idx(n), -1)};
     std::vector<int> asked(idx(n));
     std::iota(asked.begin(), asked.end(), 0);
-    find_goals(shell, positions, target, options, asked, goals);
+    find_goals(shell, positions, target, named, options, asked, goals);
     Settled result;
     result.positions = guarded(shell, positions, goals, result.refused);
     FacingWatch facing(shell.triangles, target, EdgeSides::one, at_first_corners(shell.triangles, goals.places));
@@ -133,13 +145,13 @@ Settled settle(const Shell& shell, const Points& positions, const FitTarget& tar
     Points trial = result.positions;
     std::vector<int> looking = result.flipped, refused = result.refused;
     for (int round = 0; round < options.mending_rounds && !result.flipped.empty(); ++round) {
-        const Points relaxed = relaxed_around(shell, trial, looking, 1);
+        const Points relaxed = relaxed_around(shell, trial, looking, 1, named);
         asked = std::move(refused); // those on their way, and those that moved
         for (Eigen::Index i = 0; i < n; ++i)
             if (relaxed.row(i) != trial.row(i)) asked.push_back(static_cast<int>(i));
         std::sort(asked.begin(), asked.end());
         asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
-        find_goals(shell, relaxed, target, options, asked, goals);
+        find_goals(shell, relaxed, target, named, options, asked, goals);
         trial = guarded(shell, relaxed, goals, refused);
         looking = facing.into(trial);
         if (looking.size() >= result.flipped.size()) continue;

@@ -5,6 +5,7 @@
 #include "meshtween/fit/refine.h"
 #include "meshtween/fit/shell.h"
 
+#include <span>
 #include <vector>
 
 namespace meshtween {
@@ -23,10 +24,11 @@ struct Settled {
     std::vector<int> places;  // n: the target's triangle on which each vertex was last looked for, or -1
 };
 
-// Each vertex to its closest compatible point, or a half, a quarter, ... or none of the way there where a triangle
-// would come to look away from the surface that it looked along before. Then triangles that look into the surface are
-// relaxed with their surroundings and set down again.
-Settled settle(const Shell& shell, const Points& positions, const FitTarget& target, const SettleOptions& options = {});
+// Each vertex to its closest compatible point, one that a pin names to the closest whichever way it looks, or a half, a
+// quarter, ... or none of the way there where a triangle would come to look away from the surface that it looked along
+// before. Then triangles that look into the surface are relaxed with their surroundings and set down again.
+Settled settle(const Shell& shell, const Points& positions, const FitTarget& target, std::span<const Pin> pins = {},
+               const SettleOptions& options = {});
 
 // Triangles whose normal opposes the target's at the point closest to their centre, ascending. `places`, one a vertex
 // or none, are triangles of the target that are probably near.

@@ -13,6 +13,7 @@
 #include "meshtween/fit/marker_twins.h"
 #include "meshtween/fit/nudge.h"
 #include "meshtween/fit/refine.h"
+#include "meshtween/fit/renumber.h"
 #include "meshtween/fit/settle.h"
 #include "meshtween/fit/untangle.h"
 #include "meshtween/geometry/measure.h"
@@ -21,6 +22,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <climits>
 #include <cmath>
 #include <iterator>
 #include <optional>
@@ -83,6 +85,20 @@ Points on_grid(const Points& x) {
     return (x.array() * grid).round() / grid;
 }
 
+// On the triangles' new numbers and by their places, so that the order in a file changes nothing, not even a rounding.
+std::vector<Marker> in_order(std::span<const Marker> given, const std::vector<int>& triangle) {
+    std::vector<int> now(triangle.size());
+    for (std::size_t t = 0; t < triangle.size(); ++t) now[static_cast<std::size_t>(triangle[t])] = static_cast<int>(t);
+    std::vector<Marker> markers(given.begin(), given.end());
+    for (Marker& m : markers) m.source.triangle = now[static_cast<std::size_t>(m.source.triangle)];
+    const auto key = [](const Marker& m) {
+        const Point &b = m.source.barycentric, &t = m.target;
+        return std::array<double, 7>{static_cast<double>(m.source.triangle), b[0], b[1], b[2], t[0], t[1], t[2]};
+    };
+    std::stable_sort(markers.begin(), markers.end(), [&](const Marker& a, const Marker& b) { return key(a) < key(b); });
+    return markers;
+}
+
 bool on_one_line(const Points& points) {
     const Points centred = points.rowwise() - points.colwise().mean();
     const Eigen::Vector3d spread =
@@ -91,12 +107,12 @@ bool on_one_line(const Points& points) {
     return spread[1] <= 1e-12 * spread[2];
 }
 
-Similarity start(const Mesh& source, const Points& target, const Triangles& target_triangles,
-                 std::span<const Marker> markers, const Points& goals, std::vector<std::string>& notes) {
+Similarity start(const Renumbered& source, const Renumbered& target, std::span<const Marker> markers,
+                 const Points& goals, std::vector<std::string>& notes) {
     if (markers.empty()) {
         notes.push_back("no markers: the start is a guess, as the files stand or by their principal axes; look at the "
                         "result, and place a few markers if it is turned the wrong way");
-        return align_axes(source.positions, source.triangles, target, target_triangles);
+        return align_axes(source.positions, source.triangles, target.positions, target.triangles);
     }
     Points from(goals.rows(), 3);
     for (std::size_t k = 0; k < markers.size(); ++k)
@@ -111,21 +127,21 @@ Similarity start(const Mesh& source, const Points& target, const Triangles& targ
     }
     notes.push_back(fmt::format("{} marker{}: turn and size are taken from the shapes' extents", markers.size(),
                                 markers.size() == 1 ? "" : "s"));
-    Similarity s = align_axes(source.positions, source.triangles, target, target_triangles);
+    Similarity s = align_axes(source.positions, source.triangles, target.positions, target.triangles);
     s.translation += (goals - s(from)).colwise().mean();
     return s;
 }
 
-Frame frame_of(const Mesh& source, const Mesh& target, std::span<const Marker> markers) {
+Frame frame_of(const Renumbered& source, const Points& target, std::span<const Marker> markers) {
     Frame frame;
-    frame.origin = target.positions.colwise().mean();
+    frame.origin = target.colwise().mean();
     Points from(std::ssize(markers), 3), to(std::ssize(markers), 3);
     for (std::size_t k = 0; k < markers.size(); ++k) {
         from.row(static_cast<Eigen::Index>(k)) = position(source.positions, source.triangles, markers[k].source);
         to.row(static_cast<Eigen::Index>(k)) = markers[k].target;
     }
     if (markers.size() >= 3 && !on_one_line(from) && !on_one_line(to)) frame.turn = align(from, to).rotation;
-    frame.diagonal = diagonal(frame.in(target.positions));
+    frame.diagonal = diagonal(frame.in(target));
     return frame;
 }
 
@@ -160,11 +176,11 @@ struct Sides {
 };
 
 // Both sides at once, for much of the source's is one thread's work.
-Sides prepared(const Points& rest, const Triangles& triangles, const Points& target, const Triangles& target_triangles,
-               std::vector<Pin> pins, bool with_twins) {
+Sides prepared(const Points& rest, const Triangles& triangles, const Renumbered& target, std::vector<Pin> pins,
+               bool with_twins) {
     Sides sides;
     const auto prepare_target = [&] {
-        sides.target.emplace(fit_target(target, target_triangles));
+        sides.target.emplace(fit_target(target.positions, target.triangles));
         if (with_twins) add_twins(rest, triangles, *sides.target, pins);
     };
     const auto prepare_source = [&] { sides.shells = shell_levels(rest, triangles, {250, 4}); };
@@ -206,24 +222,15 @@ struct Landed {
     Points positions;        // on the surface
     Points lift;             // how far from there each vertex goes
     std::vector<int> places; // the target's triangle at each vertex
+    Tangles left;
     bool cancelled = false;
 };
-
-void note_faults(const std::vector<int>& flips, const std::vector<std::array<int, 2>>& cuts, FitResult& result) {
-    if (!flips.empty())
-        result.notes.push_back(fmt::format("{} triangles look into the target's surface, the first of them {}",
-                                           flips.size(), flips.front()));
-    if (!cuts.empty())
-        result.notes.push_back(fmt::format("{} pairs of triangles cut each other where neither shape does, the first "
-                                           "of them {} and {}",
-                                           cuts.size(), cuts[0][0], cuts[0][1]));
-}
 
 // Onto the surface, what is turned over or cut mended, vertices onto creases, triangles onto the surface in the mean.
 Landed land(TangleSearch& search, std::span<const Pin> pins, const Points& x, bool on_surface, const Progress& progress,
             FitResult& result) {
     const Shell& shell = search.shell;
-    Settled settled = settle(shell, x, search.target);
+    Settled settled = settle(shell, x, search.target, pins);
     result.refused_steps = std::ssize(settled.refused);
     result.refused = std::move(settled.refused);
     const Tangles faults = tangles(search, settled.positions, settled.flipped);
@@ -231,7 +238,10 @@ Landed land(TangleSearch& search, std::span<const Pin> pins, const Points& x, bo
     result.patches = untangled.patches;
     Nudged nudged = nudge(search, creased(search, untangled.positions, untangled.left), untangled.left, pins, false,
                           settled.places);
-    Landed landed{nudged.positions, Points::Zero(x.rows(), 3), std::move(settled.places),
+    Landed landed{nudged.positions,
+                  Points::Zero(x.rows(), 3),
+                  std::move(settled.places),
+                  {},
                   untangled.cancelled || !keep_going(progress, 0.5, "lifting")};
     if (!on_surface && !landed.cancelled) {
         const Points up =
@@ -240,21 +250,45 @@ Landed land(TangleSearch& search, std::span<const Pin> pins, const Points& x, bo
         nudged = nudge(search, up, nudged.left, pins, true, landed.places);
         landed.lift = nudged.positions - landed.positions;
     }
-    const std::vector<int> flips =
-        flipped_triangles(landed.positions + landed.lift, shell.triangles, search.target, landed.places);
+    landed.left = {flipped_triangles(landed.positions + landed.lift, shell.triangles, search.target, landed.places),
+                   std::move(nudged.left.cuts)};
+    const std::vector<int>& flips = landed.left.flips;
     std::vector<int> seen;
     std::set_union(settled.mended.begin(), settled.mended.end(), faults.flips.begin(), faults.flips.end(),
                    std::back_inserter(seen));
     std::set_difference(seen.begin(), seen.end(), flips.begin(), flips.end(), std::back_inserter(result.mended));
-    note_faults(flips, nudged.left.cuts, result);
     return landed;
 }
 
-void measure_markers(const Points& x, const Mesh& source, std::span<const Marker> markers, const Points& goals,
+// What the result says of vertices and triangles, by their numbers in the file.
+void report_in_file_order(const Renumbered& source, const Tangles& left, FitResult& result) {
+    const auto before = [](const std::vector<int>& numbers, std::vector<int>& list) {
+        for (int& i : list) i = numbers[static_cast<std::size_t>(i)];
+        std::sort(list.begin(), list.end());
+    };
+    before(source.vertex, result.refused);
+    before(source.triangle, result.mended);
+    std::vector<int> flips = left.flips;
+    before(source.triangle, flips);
+    if (!flips.empty())
+        result.notes.push_back(fmt::format("{} triangles look into the target's surface, the first of them {}",
+                                           flips.size(), flips.front()));
+    std::array<int, 2> first{INT_MAX, INT_MAX};
+    for (const auto& cut : left.cuts) {
+        std::vector<int> pair(cut.begin(), cut.end());
+        before(source.triangle, pair);
+        first = std::min(first, std::array{pair[0], pair[1]});
+    }
+    if (!left.cuts.empty())
+        result.notes.push_back(fmt::format("{} pairs of triangles cut each other where neither shape does, the first "
+                                           "of them {} and {}",
+                                           left.cuts.size(), first[0], first[1]));
+}
+
+void measure_markers(const Points& x, const Triangles& triangles, std::span<const Marker> markers, const Points& goals,
                      FitResult& result) {
     for (std::size_t k = 0; k < markers.size(); ++k) {
-        const double off =
-            (position(x, source.triangles, markers[k].source) - goals.row(static_cast<Eigen::Index>(k))).norm();
+        const double off = (position(x, triangles, markers[k].source) - goals.row(static_cast<Eigen::Index>(k))).norm();
         if (off > 0.01)
             result.notes.push_back(fmt::format("marker '{}' ends {:.1f} % of the diagonal from its place: is it right?",
                                                markers[k].name, 100 * off));
@@ -263,22 +297,23 @@ void measure_markers(const Points& x, const Mesh& source, std::span<const Marker
 
 } // namespace
 
-FitResult surface_fit(const Mesh& source, const Mesh& target_mesh, std::span<const Marker> markers,
+FitResult surface_fit(const Mesh& source_mesh, const Mesh& target_mesh, std::span<const Marker> given,
                       const FitOptions& options, const Progress& progress) {
     FitResult result;
-    const Frame frame = frame_of(source, target_mesh, markers);
+    const Renumbered source = renumbered(source_mesh.positions, source_mesh.triangles);
+    const std::vector<Marker> markers = in_order(given, source.triangle);
+    const Frame frame = frame_of(source, target_mesh.positions, markers);
     const Points in_frame = frame.in(target_mesh.positions);
-    const Points on_the_grid = on_grid(in_frame);
+    const Renumbered on_the_grid = renumbered(on_grid(in_frame), target_mesh.triangles);
     Points goals(std::ssize(markers), 3);
     for (std::size_t k = 0; k < markers.size(); ++k) goals.row(static_cast<Eigen::Index>(k)) = markers[k].target;
     goals = on_grid(frame.in(goals));
-    const Points rest =
-        start(source, on_the_grid, target_mesh.triangles, markers, goals, result.notes)(source.positions);
+    const Points rest = start(source, on_the_grid, markers, goals, result.notes)(source.positions);
     std::vector<Pin> pins;
     for (std::size_t k = 0; k < markers.size(); ++k)
         pins.push_back({markers[k].source, {0, 0, 0}, goals.row(static_cast<Eigen::Index>(k)), 1, 0});
-    const Sides sides = prepared(rest, source.triangles, on_the_grid, target_mesh.triangles, pins,
-                                 options.symmetry && options.marker_weight > 0);
+    const Sides sides =
+        prepared(rest, source.triangles, on_the_grid, pins, options.symmetry && options.marker_weight > 0);
     const FitTarget& target = *sides.target;
     const ShellLevels& shells = sides.shells;
     result.twins = static_cast<int>(shells.pins[0].size() - markers.size());
@@ -304,6 +339,7 @@ FitResult surface_fit(const Mesh& source, const Mesh& target_mesh, std::span<con
         for (int round = 0; round < rounds_a_level; ++round, weights.length *= rate, weights.slide *= slide_rate) {
             const bool whole = k == 0 && levels > 1 && round >= rounds_a_level - whole_rounds;
             weights.centres = whole ? centres_share * (1 - weights.membrane) : 0;
+            weights.round = result.rounds;
             weights.cycles = weights.centres > 0 ? whole_cycles : RelaxWeights().cycles;
             going = going && keep_going(progress, 0.15 + 0.75 * done / work, "fitting");
             if (!going) break;
@@ -311,7 +347,7 @@ FitResult surface_fit(const Mesh& source, const Mesh& target_mesh, std::span<con
             x = k == 0 ? held_back(search, x, relaxed) : std::move(relaxed);
             done += static_cast<double>(x.rows());
             ++result.rounds;
-            if (options.watch) options.watch(frame.out(on_finest(shells, k, x)));
+            if (options.watch) options.watch(frame.out(as_before(source.vertex, on_finest(shells, k, x))));
         }
         weights.membrane = membrane_share(strain(shells.shells[k], x));
         if (k > 0) x = refine_positions(shells, k, x, weights.with_scale);
@@ -319,15 +355,16 @@ FitResult surface_fit(const Mesh& source, const Mesh& target_mesh, std::span<con
     }
     const std::span<const Pin> held =
         options.marker_weight > 0 ? std::span<const Pin>(shells.pins[0]).first(markers.size()) : std::span<const Pin>();
-    Landed landed{x, Points::Zero(x.rows(), 3), {}};
+    Landed landed{x, Points::Zero(x.rows(), 3), {}, {}};
     if (going) landed = land(search, held, x, options.on_surface, part_of(progress, 0.9, 1), result);
     x = std::move(landed.positions);
     for (Eigen::Index i = 0; i < x.rows(); ++i) // vertices of no triangle go where the similarity takes them
         if (shells.shells[0].topology.vertex_triangles[i].empty()) x.row(i) = rest.row(i);
-    measure_markers(x, source, markers, goals, result);
-    leave_grid(x, target, in_frame, landed.places);
+    report_in_file_order(source, landed.left, result);
+    measure_markers(x, source.triangles, markers, goals, result);
+    leave_grid(x, target, in_order_of(on_the_grid.vertex, in_frame), landed.places);
     x += landed.lift;
-    result.positions = frame.out(x);
+    result.positions = frame.out(as_before(source.vertex, x));
     result.end = going && !landed.cancelled ? FitEnd::converged : FitEnd::cancelled;
     keep_going(progress, 1, "done");
     return result;

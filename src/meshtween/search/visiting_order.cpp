@@ -31,8 +31,18 @@ struct Extent {
     }
 };
 
+Extent extent(const Points& points) {
+    return parallel_sum(points.rows(), Extent{}, [&](Eigen::Index i) -> Extent {
+        if (!points.row(i).allFinite()) return {};
+        return {points.row(i), points.row(i)};
+    });
+}
+
 // Whether neighbours in the list are near each other, as vertices of a mesh mostly are, by a thousand of them.
-bool in_order(const Points& points, double diagonal) {
+bool in_order(const Points& points) {
+    const Extent all = extent(points);
+    const double diagonal = (all.high - all.low).norm();
+    if (!(diagonal > 0) || !std::isfinite(diagonal)) return true;
     const Eigen::Index step = std::max<Eigen::Index>(1, points.rows() / 1000);
     double sum = 0;
     Eigen::Index count = 0;
@@ -43,22 +53,16 @@ bool in_order(const Points& points, double diagonal) {
 
 } // namespace
 
-std::vector<int> visiting_order(const Points& points) {
+std::vector<int> curve_order(const Points& points) {
     const Eigen::Index count = points.rows();
-    if (count < 2000) return {};
-    const auto own = [&](Eigen::Index i) -> Extent {
-        if (!points.row(i).allFinite()) return {};
-        return {points.row(i), points.row(i)};
-    };
-    const Extent all = parallel_sum(count, Extent{}, own);
-    const double size = (all.high - all.low).maxCoeff(), diagonal = (all.high - all.low).norm();
-    if (!(size > 0) || !std::isfinite(diagonal) || in_order(points, diagonal)) return {};
+    const Extent all = extent(points);
+    const double size = (all.high - all.low).maxCoeff(), cells = (1 << bits_an_axis) - 1;
     std::vector<std::uint64_t> keys(static_cast<std::size_t>(count)), other(keys.size());
     parallel_for(count, [&](Eigen::Index i) {
         std::uint64_t key = 0;
         for (int k = 0; k < 3; ++k) {
-            const double cell = (points(i, k) - all.low[k]) / size * ((1 << bits_an_axis) - 1);
-            key |= static_cast<std::uint64_t>(spread(cell > 0 ? static_cast<std::uint32_t>(std::min(cell, 1023.0)) : 0))
+            const double cell = (points(i, k) - all.low[k]) / size * cells;
+            key |= static_cast<std::uint64_t>(spread(cell > 0 ? static_cast<std::uint32_t>(std::min(cell, cells)) : 0))
                    << k;
         }
         keys[static_cast<std::size_t>(i)] = key << 32 | static_cast<std::uint64_t>(i);
@@ -74,7 +78,18 @@ std::vector<int> visiting_order(const Points& points) {
     std::vector<int> order(keys.size());
     std::transform(keys.begin(), keys.end(), order.begin(),
                    [](std::uint64_t key) { return static_cast<int>(key & 0xffffffff); });
+    const auto place = [&](int i) { return std::array{points(i, 0), points(i, 1), points(i, 2)}; };
+    for (std::size_t begin = 0, end = 0; begin < keys.size(); begin = end) {
+        while (end < keys.size() && keys[end] >> 32 == keys[begin] >> 32) ++end;
+        std::sort(order.begin() + static_cast<std::ptrdiff_t>(begin), order.begin() + static_cast<std::ptrdiff_t>(end),
+                  [&](int i, int j) { return place(i) < place(j) || (place(i) == place(j) && i < j); });
+    }
     return order;
+}
+
+std::vector<int> visiting_order(const Points& points) {
+    constexpr Eigen::Index few = 2000;
+    return points.rows() < few || in_order(points) ? std::vector<int>() : curve_order(points);
 }
 
 } // namespace meshtween::search
