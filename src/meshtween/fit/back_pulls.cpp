@@ -87,7 +87,6 @@ std::vector<SamplePull> back_pulls(const Shell& shell, const Points& positions, 
                              strength * area * std::max(0.0, facing.dot(normal))};
         },
         64);
-    std::erase_if(pulls, [](const SamplePull& p) { return p.where.triangle < 0; });
     return pulls;
 }
 

@@ -11,11 +11,12 @@
 
 namespace meshtween {
 
-std::vector<SamplePull> centre_pulls(const Shell& shell, const Points& positions, const FitTarget& target,
-                                     double least_cosine, double reach, RelaxMemory& memory) {
+void add_centre_pulls(const Shell& shell, const Points& positions, const FitTarget& target, double weight,
+                      double least_cosine, double reach, RelaxMemory& memory, std::vector<SamplePull>& pulls) {
     const double area = surface_area(shell.rest, shell.triangles);
-    std::vector<SamplePull> pulls(static_cast<std::size_t>(shell.triangles.rows()));
-    memory.centre_places.resize(pulls.size(), -1);
+    const std::size_t before = pulls.size();
+    pulls.resize(before + static_cast<std::size_t>(shell.triangles.rows()));
+    memory.centre_places.resize(pulls.size() - before, -1);
     parallel_for(
         shell.triangles.rows(),
         [&](std::ptrdiff_t t) {
@@ -30,12 +31,11 @@ std::vector<SamplePull> centre_pulls(const Shell& shell, const Points& positions
             if (!closest.found() || on_border(target, closest.where)) return;
             place = closest.where.triangle;
             const Point normal = target.index.normals().row(place);
-            pulls[i] = {centre, closest.position - from, normal,
-                        triangle_area(shell.rest, shell.triangles, t) / area * std::max(0.0, normal.dot(facing))};
+            pulls[before + i] = {centre, closest.position - from, normal,
+                                 weight * triangle_area(shell.rest, shell.triangles, t) / area *
+                                     std::max(0.0, normal.dot(facing))};
         },
         256);
-    std::erase_if(pulls, [](const SamplePull& p) { return p.where.triangle < 0; });
-    return pulls;
 }
 
 } // namespace meshtween

@@ -134,24 +134,13 @@ std::vector<PinPull> pin_pulls(const Shell& shell, const std::vector<Pin>& pins,
 void add_sample_pulls(const Shell& shell, const Points& positions, const FitTarget& target, const RelaxWeights& weights,
                       RelaxMemory& memory, BlockSystem& system, Points& right) {
     constexpr double near = 0.05; // of a triangle's size
-    const Triangles& triangles = shell.triangles;
     const double back = weights.back * weights.closeness;
     std::vector<SamplePull> pulls = back_pulls(shell, positions, target, back, weights.reach, weights.round, memory);
-    const std::vector<double> shares = bearable(pulls, triangles, shell.area, back);
-    if (weights.centres <= 0) {
-        add_lumped(pulls, shares, positions, triangles, system, right);
-        return;
-    }
-    for (SamplePull p : centre_pulls(shell, positions, target, weights.least_cosine, weights.reach, memory)) {
-        p.strength *= weights.centres * weights.closeness;
-        pulls.push_back(p);
-    }
-    const auto far = std::stable_partition(pulls.begin(), pulls.end(), [&](const SamplePull& p) {
-        return p.way.squaredNorm() < near * near * triangle_area(positions, triangles, p.where.triangle);
-    });
-    add_lumped({far, pulls.end()}, shares, positions, triangles, system, right);
-    pulls.erase(far, pulls.end());
-    add_together(pulls, shares, positions, triangles, system, right);
+    const std::vector<double> shares = bearable(pulls, shell.triangles, shell.area, back);
+    if (weights.centres > 0)
+        add_centre_pulls(shell, positions, target, weights.centres * weights.closeness, weights.least_cosine,
+                         weights.reach, memory, pulls);
+    add_pulls(pulls, shares, weights.centres > 0 ? near : 0, shell, positions, system, right);
 }
 
 // The forms of one level with their weights; blocks are still nought, pins are in.

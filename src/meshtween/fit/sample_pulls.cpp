@@ -1,6 +1,8 @@
 #include "meshtween/fit/sample_pulls.h"
 
 #include "meshtween/core/parallel.h"
+#include "meshtween/geometry/gather.h"
+#include "meshtween/geometry/measure.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,21 +10,72 @@
 namespace meshtween {
 namespace {
 
+using Eigen::Matrix3d;
+
 std::size_t idx(std::ptrdiff_t i) {
     return static_cast<std::size_t>(i);
 }
 
-// The pulls as fine points of the vertices, which so know the pulls that reach them.
-Interpolation as_points(const std::vector<SamplePull>& pulls, const Triangles& triangles, std::ptrdiff_t vertices) {
-    std::vector<std::array<int, 3>> corners(pulls.size());
-    std::vector<Eigen::RowVector3d> weights(pulls.size());
-    for (std::size_t k = 0; k < pulls.size(); ++k) {
-        const auto f = triangles.row(pulls[k].where.triangle);
-        corners[k] = {f[0], f[1], f[2]};
-        weights[k] = pulls[k].where.barycentric;
+// What the pulls ask of one vertex.
+struct Asked {
+    Matrix3d own;
+    std::vector<Matrix3d> beside; // one a neighbour
+    Point right;
+};
+
+class Sum {
+public:
+    Sum(const std::vector<SamplePull>& pulls, const std::vector<double>& shares, double near, const Shell& shell,
+        const Points& positions)
+        : pulls_(pulls), shares_(shares), near_(near), shell_(shell), positions_(positions),
+          of_triangle_(gather(shell.triangles.rows(), [&](const auto& put) {
+              for (std::size_t k = 0; k < pulls.size(); ++k)
+                  if (pulls[k].where.triangle >= 0) put(pulls[k].where.triangle, static_cast<int>(k));
+          })) {}
+
+    void at(std::ptrdiff_t v, Asked& asked) const {
+        asked.own.setZero();
+        asked.beside.assign(shell_.topology.neighbours[v].size(), Matrix3d::Zero());
+        asked.right.setZero();
+        int last = -1;
+        for (const int t : shell_.topology.vertex_triangles[v]) {
+            if (t == last) continue; // a triangle that has the vertex twice
+            last = t;
+            for (const int k : of_triangle_[t]) add(pulls_[idx(k)], v, asked);
+        }
     }
-    return interpolation(vertices, std::move(corners), std::move(weights));
-}
+
+private:
+    void add(const SamplePull& p, std::ptrdiff_t v, Asked& asked) const {
+        const auto corners = shell_.triangles.row(p.where.triangle);
+        double part = 0, least = 1;
+        for (int c = 0; c < 3; ++c) {
+            if (corners[c] == v) part += p.where.barycentric[c];
+            if (p.where.barycentric[c] > 0) least = std::min(least, shares_[idx(corners[c])]);
+        }
+        const bool is_near =
+            p.way.squaredNorm() < near_ * near_ * triangle_area(positions_, shell_.triangles, p.where.triangle);
+        const double weight = part * p.strength * (is_near ? least : shares_[idx(v)]);
+        const Matrix3d block = weight * p.direction.transpose() * p.direction;
+        asked.right += weight * p.direction.dot(p.way) * p.direction;
+        if (!is_near) {
+            asked.own += block;
+            return;
+        }
+        const auto neighbours = shell_.topology.neighbours[v];
+        for (int c = 0; c < 3; ++c) {
+            const auto slot = std::lower_bound(neighbours.begin(), neighbours.end(), corners[c]) - neighbours.begin();
+            (corners[c] == v ? asked.own : asked.beside[idx(slot)]) += p.where.barycentric[c] * block;
+        }
+    }
+
+    const std::vector<SamplePull>& pulls_;
+    const std::vector<double>& shares_;
+    double near_;
+    const Shell& shell_;
+    const Points& positions_;
+    Lists of_triangle_;
+};
 
 } // namespace
 
@@ -30,43 +83,29 @@ std::vector<double> bearable(const std::vector<SamplePull>& pulls, const Triangl
                              const std::vector<double>& area, double most) {
     std::vector<double> drawn(area.size(), 0);
     for (const SamplePull& p : pulls)
-        for (int k = 0; k < 3; ++k) drawn[idx(triangles(p.where.triangle, k))] += p.where.barycentric[k] * p.strength;
+        for (int k = 0; p.where.triangle >= 0 && k < 3; ++k)
+            drawn[idx(triangles(p.where.triangle, k))] += p.where.barycentric[k] * p.strength;
     for (std::size_t v = 0; v < drawn.size(); ++v)
         drawn[v] = std::min(1.0, most * area[v] / std::max(drawn[v], 1e-300));
     return drawn;
 }
 
-void add_lumped(const std::vector<SamplePull>& pulls, const std::vector<double>& shares, const Points& positions,
-                const Triangles& triangles, BlockSystem& system, Points& right) {
-    const Interpolation reached = as_points(pulls, triangles, positions.rows());
-    parallel_for(positions.rows(), [&](std::ptrdiff_t v) {
-        for (auto e = idx(reached.first[idx(v)]); e < idx(reached.first[idx(v) + 1]); ++e) {
-            const SamplePull& p = pulls[idx(reached.fine[e])];
-            const double weight = shares[idx(v)] * p.where.barycentric[reached.slot[e]] * p.strength;
-            system.blocks[idx(v)] += weight * p.direction.transpose() * p.direction;
-            right.row(v) += weight * p.direction.dot(Point(positions.row(v)) + p.way) * p.direction;
-        }
-    });
-}
-
-void add_together(const std::vector<SamplePull>& pulls, const std::vector<double>& shares, const Points& positions,
-                  const Triangles& triangles, BlockSystem& system, Points& right) {
-    system.samples.at = as_points(pulls, triangles, positions.rows());
-    system.samples.directions.resize(pulls.size());
-    std::vector<double> goals(pulls.size()); // along the direction
-    parallel_for(std::ssize(pulls), [&](std::ptrdiff_t k) {
-        const SamplePull& p = pulls[idx(k)];
-        double share = 1;
-        for (int c = 0; c < 3; ++c)
-            if (p.where.barycentric[c] > 0) share = std::min(share, shares[idx(triangles(p.where.triangle, c))]);
-        system.samples.directions[idx(k)] = std::sqrt(share * p.strength) * p.direction;
-        goals[idx(k)] = system.samples.directions[idx(k)].dot(position(positions, triangles, p.where) + p.way);
-    });
-    const Interpolation& reached = system.samples.at;
-    parallel_for(positions.rows(), [&](std::ptrdiff_t v) {
-        for (auto e = idx(reached.first[idx(v)]); e < idx(reached.first[idx(v) + 1]); ++e) {
-            const std::size_t k = idx(reached.fine[e]);
-            right.row(v) += pulls[k].where.barycentric[reached.slot[e]] * goals[k] * system.samples.directions[k];
+void add_pulls(const std::vector<SamplePull>& pulls, const std::vector<double>& shares, double near, const Shell& shell,
+               const Points& positions, BlockSystem& system, Points& right) {
+    const Sum sum(pulls, shares, near, shell, positions);
+    const Lists& neighbours = shell.topology.neighbours;
+    if (near > 0) system.couplings = {&neighbours, std::vector<SymmetricBlock>(neighbours.items.size())};
+    parallel_ranges(positions.rows(), 1024, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        Asked asked;
+        for (std::ptrdiff_t v = begin; v < end; ++v) {
+            sum.at(v, asked);
+            system.blocks[idx(v)] += asked.own;
+            right.row(v) += asked.right + positions.row(v) * asked.own;
+            for (std::size_t k = 0; near > 0 && k < asked.beside.size(); ++k) {
+                const std::size_t e = idx(neighbours.first[idx(v)]) + k;
+                const SymmetricBlock& block = system.couplings.blocks[e] = rounded(asked.beside[k]);
+                right.row(v) += times(block, Point(positions.row(neighbours.items[e])));
+            }
         }
     });
 }

@@ -29,16 +29,14 @@ Eigen::RowVector3d row_times(const BlockSystem& system, const Points& x, std::pt
     return {sum[0], sum[1], sum[2]};
 }
 
-// body(sample, weight) for the samples that a point is a corner of.
-template <typename Body>
-void each_sample(const SampleTerms& samples, std::ptrdiff_t point, const Body& body) {
-    if (samples.empty()) return;
-    const Interpolation& at = samples.at;
-    for (auto e = static_cast<std::size_t>(at.first[static_cast<std::size_t>(point)]);
-         e < static_cast<std::size_t>(at.first[static_cast<std::size_t>(point) + 1]); ++e) {
-        const auto sample = static_cast<std::size_t>(at.fine[e]);
-        body(sample, at.weights[sample][at.slot[e]]);
-    }
+// visit(neighbour, block) for all that is coupled with a point.
+template <typename Visit>
+void each_coupling(const Couplings& couplings, std::ptrdiff_t i, const Visit& visit) {
+    if (couplings.empty()) return;
+    const Lists& lists = *couplings.neighbours;
+    const auto end = static_cast<std::size_t>(lists.first[static_cast<std::size_t>(i) + 1]);
+    for (auto e = static_cast<std::size_t>(lists.first[static_cast<std::size_t>(i)]); e < end; ++e)
+        visit(lists.items[e], couplings.blocks[e]);
 }
 
 } // namespace
@@ -71,32 +69,34 @@ Pattern pattern(Lists rows) {
     return result;
 }
 
+SymmetricBlock rounded(const Matrix3d& block) {
+    const auto at = [&](int row, int column) { return static_cast<float>(block(row, column)); };
+    return {at(0, 0), at(1, 1), at(2, 2), at(0, 1), at(1, 2), at(0, 2)};
+}
+
+Point times(const SymmetricBlock& b, const Point& x) {
+    return {b.xx * x[0] + b.xy * x[1] + b.zx * x[2], b.xy * x[0] + b.yy * x[1] + b.yz * x[2],
+            b.zx * x[0] + b.yz * x[1] + b.zz * x[2]};
+}
+
 Points apply(const BlockSystem& system, const Points& x) {
-    const SampleTerms& samples = system.samples;
-    std::vector<double> along(samples.directions.size());
-    parallel_for(std::ssize(along), [&](std::ptrdiff_t s) {
-        const auto k = static_cast<std::size_t>(s);
-        Point at(0, 0, 0);
-        for (int c = 0; c < 3; ++c)
-            at += samples.at.weights[k][c] * x.row(samples.at.points[k][static_cast<std::size_t>(c)]);
-        along[k] = samples.directions[k].dot(at);
-    });
     Points y(x.rows(), 3);
     parallel_for(x.rows(), [&](std::ptrdiff_t i) {
-        y.row(i) = row_times(system, x, i);
-        each_sample(samples, i,
-                    [&](std::size_t k, double weight) { y.row(i) += weight * along[k] * samples.directions[k]; });
+        Point row = row_times(system, x, i);
+        each_coupling(system.couplings, i,
+                      [&](int j, const SymmetricBlock& block) { row += times(block, Point(x.row(j))); });
+        y.row(i) = row;
     });
     return y;
 }
 
 Matrix3d lumped_block(const BlockSystem& system, std::ptrdiff_t i) {
-    Matrix3d block = system.blocks[static_cast<std::size_t>(i)];
-    each_sample(system.samples, i, [&](std::size_t k, double weight) {
-        const Point& d = system.samples.directions[k];
-        block += weight * d.transpose() * d;
+    Matrix3d sum = system.blocks[static_cast<std::size_t>(i)];
+    each_coupling(system.couplings, i, [&](int, const SymmetricBlock& b) {
+        const Eigen::Matrix3f block{{b.xx, b.xy, b.zx}, {b.xy, b.yy, b.yz}, {b.zx, b.yz, b.zz}};
+        sum += block.cast<double>();
     });
-    return block;
+    return sum;
 }
 
 Interpolation interpolation(std::ptrdiff_t coarse_count, std::vector<std::array<int, 3>> points,
@@ -135,55 +135,11 @@ std::vector<Matrix3d> to_coarse(const Interpolation& interpolation, const BlockS
     return coarse;
 }
 
-namespace {
-
-// Samples rounded to floats, as conjugate gradients ask for them.
-struct FloatSamples {
-    std::vector<std::array<int, 3>> corners; // a sample
-    std::vector<std::array<float, 3>> weights;
-    FloatPoints directions;
-    std::vector<int> first, reached;               // of each point: the samples that it is a corner of
-    std::vector<float> shares;                     // its weight in each
-    std::vector<std::array<FloatPoint, 3>> lumped; // a point: columns of what its samples add to its block
-};
-
-FloatSamples float_samples(const BlockSystem& system) {
-    const SampleTerms& samples = system.samples;
-    FloatSamples result;
-    if (samples.empty()) return result;
-    const Interpolation& at = samples.at;
-    result.corners = at.points;
-    result.weights.resize(at.points.size());
-    result.directions.resize(at.points.size());
-    parallel_for(std::ssize(result.weights), [&](std::ptrdiff_t s) {
-        const auto k = static_cast<std::size_t>(s);
-        for (int c = 0; c < 3; ++c) {
-            result.weights[k][static_cast<std::size_t>(c)] = static_cast<float>(at.weights[k][c]);
-            result.directions[k][c] = static_cast<float>(samples.directions[k][c]);
-        }
-    });
-    result.first = at.first;
-    result.reached = at.fine;
-    result.shares.resize(at.fine.size());
-    result.lumped.resize(system.blocks.size());
-    parallel_for(std::ssize(system.blocks), [&](std::ptrdiff_t i) {
-        result.lumped[static_cast<std::size_t>(i)] =
-            float_columns(lumped_block(system, i) - system.blocks[static_cast<std::size_t>(i)]);
-        for (auto e = static_cast<std::size_t>(at.first[static_cast<std::size_t>(i)]);
-             e < static_cast<std::size_t>(at.first[static_cast<std::size_t>(i) + 1]); ++e)
-            result.shares[e] = static_cast<float>(at.weights[static_cast<std::size_t>(at.fine[e])][at.slot[e]]);
-    });
-    return result;
-}
-
-} // namespace
-
 struct Multigrid::Data {
     VCycle cycle;
     BlockSystem finest;
-    FloatSamples samples;
     Data(std::vector<BlockSystem> systems, const std::vector<Interpolation>& interpolations, std::size_t offset)
-        : cycle(systems, interpolations, offset), finest(std::move(systems[0])), samples(float_samples(finest)) {}
+        : cycle(systems, interpolations, offset), finest(std::move(systems[0])) {}
 };
 
 namespace {
@@ -193,9 +149,9 @@ constexpr int sweeps_a_cycle = 6; // of Jacobi, in time
 // Conjugate gradients in floats, from x = 0 on; with another preconditioner they start anew from where they are.
 class Gradients {
 public:
-    Gradients(const VCycle& cycle, const FloatSamples& samples, FloatPoints right)
-        : cycle_(cycle), grid_(cycle.finest()), samples_(samples), along_(samples.directions.size()),
-          r_(std::move(right)), x_(r_.size()), z_(r_.size()), p_(r_.size()), q_(r_.size()) {}
+    Gradients(const VCycle& cycle, const Couplings& couplings, FloatPoints right)
+        : cycle_(cycle), grid_(cycle.finest()), couplings_(couplings), r_(std::move(right)), x_(r_.size()),
+          z_(r_.size()), p_(r_.size()), q_(r_.size()) {}
     const FloatPoints& x() const { return x_; }
 
     struct Run {
@@ -209,7 +165,6 @@ public:
         const double enough = tolerance * rz;
         p_ = z_;
         while (done.iterations < iterations && rz > enough && rz > 0) {
-            look_along();
             const double pq = sum([&](std::size_t i) {
                 q_[i] = times_p(i);
                 return product(p_[i], q_[i]);
@@ -256,35 +211,18 @@ private:
         });
     }
 
-    // What each sample pulls at p with, for its corners to share.
-    void look_along() {
-        parallel_for(
-            std::ssize(along_),
-            [&](std::ptrdiff_t s) {
-                const auto k = static_cast<std::size_t>(s);
-                FloatPoint at{};
-                for (std::size_t c = 0; c < 3; ++c)
-                    at += samples_.weights[k][c] * p_[static_cast<std::size_t>(samples_.corners[k][c])];
-                const FloatPoint along = samples_.directions[k] * at;
-                along_[k] = (along[0] + along[1] + along[2]) * samples_.directions[k];
-            },
-            1024);
-    }
-    // Row i of the system times p. The grid holds the samples as if all corners moved alike: here is what they do not.
+    // Row i of the system times p. The grid holds what couples points as if they moved alike: here is what they do not.
     FloatPoint times_p(std::size_t i) const {
         FloatPoint result = row_times(grid_, p_, i);
-        if (along_.empty()) return result;
-        result -= times(samples_.lumped[i], p_[i]);
-        for (auto e = static_cast<std::size_t>(samples_.first[i]); e < static_cast<std::size_t>(samples_.first[i + 1]);
-             ++e)
-            result += samples_.shares[e] * along_[static_cast<std::size_t>(samples_.reached[e])];
+        each_coupling(couplings_, static_cast<std::ptrdiff_t>(i), [&](int j, const SymmetricBlock& block) {
+            result += times(block, p_[static_cast<std::size_t>(j)] - p_[i]);
+        });
         return result;
     }
 
     const VCycle& cycle_;
     const FloatGrid& grid_;
-    const FloatSamples& samples_;
-    FloatPoints along_;
+    const Couplings& couplings_;
     FloatPoints r_, x_, z_, p_, q_;
 };
 
@@ -314,14 +252,14 @@ int Multigrid::solve(const Points& right, Points& x, int cycles, double toleranc
     const VCycle& cycle = data_->cycle;
     int iterations = 0;
     constexpr int refinements = 3; // a cycle of one grid leaves 1e-7 each time
-    const bool direct = cycle.direct() && data_->finest.samples.empty();
+    const bool direct = cycle.direct() && data_->finest.couplings.empty();
     for (int k = 0; k < (direct ? refinements : 1); ++k) {
         const Points left = right - apply(data_->finest, x);
         FloatPoints residual(static_cast<std::size_t>(x.rows()));
         parallel_for(x.rows(), [&](std::ptrdiff_t i) {
             for (int c = 0; c < 3; ++c) residual[static_cast<std::size_t>(i)][c] = static_cast<float>(left(i, c));
         });
-        Gradients gradients(cycle, data_->samples, std::move(residual));
+        Gradients gradients(cycle, data_->finest.couplings, std::move(residual));
         if (cycle.direct())
             iterations += gradients.run(true, direct ? 1 : cycles, direct ? 0 : tolerance * tolerance).iterations;
         else

@@ -29,20 +29,26 @@ struct Interpolation {
     std::vector<int> first{0}, fine, slot; // of each coarse point: the fine points that it reaches
 };
 
-// Squares of what points within triangles are along a direction: (direction . sum_k weight_k x_(point_k))^2 each. The
-// weights of a point add up to 1.
-struct SampleTerms {
-    Interpolation at; // the samples are its fine points
-    std::vector<Point> directions;
-    bool empty() const { return directions.empty(); }
+// In floats, for there are many.
+struct SymmetricBlock {
+    float xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, zx = 0;
+};
+SymmetricBlock rounded(const Eigen::Matrix3d& block);
+Point times(const SymmetricBlock& block, const Point& x);
+
+// Full blocks beside the diagonal, block (i, j) the same as block (j, i).
+struct Couplings {
+    const Lists* neighbours = nullptr;  // of each point, ascending; must outlive this
+    std::vector<SymmetricBlock> blocks; // one an item of the lists
+    bool empty() const { return blocks.empty(); }
 };
 
-// Block (i, j) is values(i, j) times the identity, plus blocks[i] where i = j, plus what the samples couple.
+// Block (i, j) is values(i, j) times the identity, plus blocks[i] where i = j, plus what couples i and j.
 struct BlockSystem {
     std::shared_ptr<const Pattern> pattern;
     std::vector<double> values;          // one an entry of the pattern
     std::vector<Eigen::Matrix3d> blocks; // n, symmetric
-    SampleTerms samples;                 // or none
+    Couplings couplings;                 // or none
 };
 
 Points apply(const BlockSystem& system, const Points& x); // n x 3: the matrix times x
@@ -50,8 +56,8 @@ Points apply(const BlockSystem& system, const Points& x); // n x 3: the matrix t
 // The lists of what each coarse point reaches are made from `points`, a row a fine point.
 Interpolation interpolation(std::ptrdiff_t coarse_count, std::vector<std::array<int, 3>> points,
                             std::vector<Eigen::RowVector3d> weights);
-// blocks[i] and the samples' terms there, each shared out among its corners as if all of them moved alike. With these
-// blocks alone a system is never less than it is with the samples.
+// blocks[i] and all that couples i with others, as if they moved alike. Where couplings come of squares of weighted
+// means (weights not negative), the system is never less with these blocks alone.
 Eigen::Matrix3d lumped_block(const BlockSystem& system, std::ptrdiff_t i);
 
 // The blocks of a coarser system: each fine one, lumped, shared out by its weights (the transpose, lumped).
@@ -60,7 +66,7 @@ std::vector<Eigen::Matrix3d> to_coarse(const Interpolation& interpolation, const
 // One system on several grids, finest first, prepared to be solved.
 class Multigrid {
 public:
-    // interpolations[k] leads from grid k + 1 to grid k and must outlive this. Only the finest may have samples. The
+    // interpolations[k] leads from grid k + 1 to grid k and must outlive this. Only the finest may have couplings. The
     // coarsest is factorised. Throws Error(computation) where that one is not positive definite.
     Multigrid(std::vector<BlockSystem> systems, const std::vector<Interpolation>& interpolations, std::size_t offset);
     ~Multigrid();

@@ -6,6 +6,7 @@
 #include <Eigen/SparseCholesky>
 
 #include <array>
+#include <cstring>
 #include <memory>
 #include <vector>
 
@@ -13,7 +14,7 @@ namespace meshtween {
 
 using FloatPoint = float __attribute__((vector_size(16))); // x, y, z, 0
 
-// A BlockSystem rounded to floats, its samples lumped, with what a smoother needs.
+// A BlockSystem rounded to floats, its couplings lumped, with what a smoother needs.
 struct FloatGrid {
     std::shared_ptr<const Pattern> pattern;
     std::vector<float> values;
@@ -53,6 +54,14 @@ private:
 // A block on the diagonal, or its inverse, times a point; and a row of the system times points.
 inline FloatPoint times(const std::array<FloatPoint, 3>& columns, const FloatPoint& x) {
     return columns[0] * x[0] + columns[1] * x[1] + columns[2] * x[2];
+}
+inline FloatPoint times(const SymmetricBlock& block, const FloatPoint& x) {
+    FloatPoint diagonal, beside; // xx yy zz -, - xy yz zx; what is not meant meets the nought in x
+    std::memcpy(&diagonal, &block.xx, sizeof diagonal);
+    std::memcpy(&beside, &block.zz, sizeof beside);
+    return diagonal * x +
+           __builtin_shufflevector(beside, beside, 1, 2, 3, 3) * __builtin_shufflevector(x, x, 1, 2, 0, 3) +
+           __builtin_shufflevector(beside, beside, 3, 1, 2, 3) * __builtin_shufflevector(x, x, 2, 0, 1, 3);
 }
 inline FloatPoint row_times(const FloatGrid& grid, const FloatPoints& x, std::size_t i) {
     FloatPoint sum = times(grid.blocks[i], x[i]);
