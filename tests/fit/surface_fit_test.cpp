@@ -311,6 +311,34 @@ TEST(SurfaceFit, ABorderFarFromTheTargetsIsNotDrawnToIt) {
     EXPECT_LT(worst(r.positions, m.positions), 1e-3);
 }
 
+TEST(SurfaceFit, AHoleBesideTheBorderDoesNotDrawIt) {
+    const Mesh m = sheet(12);
+    Mesh target = sheet(30);
+    target.positions = (2 * target.positions).rowwise() - Point(0.5, 0.5, 0);
+    std::vector<int> kept; // all but a slit of 0.4 x 0.07 just beyond the mesh's border at x = 0
+    for (int t = 0; t < target.triangles.rows(); ++t) {
+        Point centre(0, 0, 0);
+        for (int k = 0; k < 3; ++k) centre += target.positions.row(target.triangles(t, k)) / 3;
+        if (!(centre[0] < -0.03 && centre[0] > -0.1 && std::abs(centre[1] - 0.5) < 0.2)) kept.push_back(t);
+    }
+    target.triangles = Triangles(target.triangles(kept, Eigen::all));
+    const FitResult r = surface_fit(m, target, vertex_markers(m, m.positions, 7));
+    for (int j = 0; j <= 12; ++j) EXPECT_NEAR(r.positions(j, 0), 0, 0.005);
+}
+
+TEST(BorderSizes, AreThoseOfTheWholeBorder) {
+    Mesh m = sheet(8);
+    const Triangles hole = m.triangles.middleRows(2 * (3 * 8 + 3), 2); // of one square
+    const Triangles before = m.triangles.topRows(2 * (3 * 8 + 3)), after = m.triangles.bottomRows(2 * (4 * 8 + 4));
+    m.triangles.resize(before.rows() + after.rows(), 3);
+    m.triangles << before, after;
+    const std::vector<double> sizes =
+        border_sizes(m.positions, border_edges(m.triangles, topology(m.positions.rows(), m.triangles)));
+    EXPECT_NEAR(sizes[0], std::numbers::sqrt2, 1e-12);
+    EXPECT_NEAR(sizes[static_cast<std::size_t>(hole(0, 0))], std::numbers::sqrt2 / 8, 1e-12);
+    EXPECT_EQ(sizes[2 * 9 + 2], 0);
+}
+
 TEST(SurfaceFit, AMeshOnItselfStays) {
     const Mesh m = block();
     const FitResult r = surface_fit(m, m, vertex_markers(m, m.positions, 8));

@@ -44,32 +44,17 @@ Pull pull(const FitTarget& target, const ClosestPoint& closest, const Point& nor
     return result;
 }
 
-// Boundary edges as triangles without area, each in the direction of its triangle.
-Triangles border_edges(const Triangles& triangles, const Topology& topology) {
-    std::vector<std::array<int, 2>> edges;
-    for (const Edge& edge : topology.edges) {
-        if (edge.count != 1) continue;
-        const auto [a, b] = edge.vertices;
-        const auto f = triangles.row(edge.triangles[0]);
-        bool along = false;
-        for (int k = 0; k < 3; ++k) along |= f[k] == a && f[(k + 1) % 3] == b;
-        edges.push_back(along ? std::array{a, b} : std::array{b, a});
-    }
-    Triangles result(static_cast<Eigen::Index>(edges.size()), 3);
-    for (std::size_t e = 0; e < edges.size(); ++e)
-        result.row(static_cast<Eigen::Index>(e)) << edges[e][0], edges[e][1], edges[e][1];
-    return result;
-}
-
 // Where the mesh's border runs along the target's, it is drawn onto it and slides along it. The pull fades with the
 // distance, so that a mesh that ends elsewhere than the target does is not stretched to its border.
 void add_border_pulls(const Shell& shell, const Points& positions, const FitTarget& target, const RelaxWeights& weights,
                       std::vector<Matrix3d>& blocks, Points& right) {
     constexpr double near = 0.04; // diagonals: where the pull has faded to nothing
-    const Points directions = border_directions(positions, shell.triangles, shell.topology);
+    const Triangles border = border_edges(shell.triangles, shell.topology);
+    const Points directions = border_directions(positions, border);
+    const std::vector<double> sizes = border_sizes(shell.rest, border);
     parallel_for(positions.rows(), [&](std::ptrdiff_t i) {
         if (!shell.topology.on_boundary[idx(i)]) return;
-        const ClosestPoint closest = closest_on_border(target, positions.row(i), directions.row(i));
+        const ClosestPoint closest = closest_on_border(target, positions.row(i), directions.row(i), sizes[idx(i)]);
         if (!closest.found()) return;
         const auto edge = target.border.row(closest.where.triangle);
         const Point along = (target.positions.row(edge[1]) - target.positions.row(edge[0])).normalized();
@@ -183,20 +168,24 @@ FitTarget fit_target(const Points& positions, const Triangles& triangles) {
                      topology(positions.rows(), triangles),
                      ClosestPointIndex(positions, triangles),
                      {},
+                     {},
                      nullptr};
     target.border = border_edges(triangles, target.topology);
+    target.border_size = border_sizes(positions, target.border);
     if (target.border.rows() > 0)
         target.border_index = std::make_shared<const ClosestPointIndex>(positions, target.border);
     return target;
 }
 
-ClosestPoint closest_on_border(const FitTarget& target, const Point& point, const Point& direction) {
+ClosestPoint closest_on_border(const FitTarget& target, const Point& point, const Point& direction, double size) {
+    constexpr double least_size = 0.5;   // beside the mesh's border
     constexpr double least_cosine = 0.7; // borders at a right angle, or facing each other, are not the same
     if (!target.border_index) return {};
     const ClosestPoint closest = target.border_index->closest(point);
     const auto edge = target.border.row(closest.where.triangle);
     const Point along = (target.positions.row(edge[1]) - target.positions.row(edge[0])).normalized();
-    return along.dot(direction) < least_cosine ? ClosestPoint{} : closest;
+    return along.dot(direction) < least_cosine || target.border_size[idx(edge[0])] < least_size * size ? ClosestPoint{}
+                                                                                                       : closest;
 }
 
 ShellLevels shell_levels(const Points& rest, const Triangles& triangles, const HierarchyOptions& options) {
@@ -230,19 +219,6 @@ void set_pins(ShellLevels& all, std::span<const Pin> pins) {
             all.pins[k].push_back(pin);
         }
     }
-}
-
-Points border_directions(const Points& positions, const Triangles& triangles, const Topology& topology) {
-    Points result = Points::Zero(positions.rows(), 3);
-    const Triangles border = border_edges(triangles, topology);
-    for (Eigen::Index e = 0; e < border.rows(); ++e) {
-        const Point along = positions.row(border(e, 1)) - positions.row(border(e, 0));
-        result.row(border(e, 0)) += along;
-        result.row(border(e, 1)) += along;
-    }
-    for (Eigen::Index i = 0; i < result.rows(); ++i)
-        if (result.row(i).norm() > 0) result.row(i).normalize();
-    return result;
 }
 
 Point normal_at(const FitTarget& target, const SurfacePoint& p) {

@@ -3,6 +3,7 @@
 
 #include "meshtween/core/mesh.h"
 #include "meshtween/core/progress.h"
+#include "meshtween/fit/border.h"
 #include "meshtween/fit/hierarchy.h"
 #include "meshtween/fit/shell.h"
 #include "meshtween/search/closest_point.h"
@@ -22,17 +23,16 @@ struct FitTarget {
     std::vector<double> area; // a vertex: share of the whole area
     Topology topology;
     ClosestPointIndex index;
-    Triangles border;                                      // border edges (a, b, b), the surface to their left
+    Triangles border;                                      // border_edges
+    std::vector<double> border_size;                       // a vertex: border_sizes
     std::shared_ptr<const ClosestPointIndex> border_index; // of them; none where the surface is closed
 };
 FitTarget fit_target(const Points& positions, const Triangles& triangles);
 
-// Unit directions of the border at its vertices, the surface to their left; zero elsewhere.
-Points border_directions(const Points& positions, const Triangles& triangles, const Topology& topology);
-
 // The closest point of the target's border where the border of the mesh at `point` runs along it: `direction` is the
-// mesh's border's, unit. Not found elsewhere.
-ClosestPoint closest_on_border(const FitTarget& target, const Point& point, const Point& direction);
+// mesh's border's, unit, and `size` how large that is. Not found elsewhere, nor where the target's border there is much
+// smaller: a hole.
+ClosestPoint closest_on_border(const FitTarget& target, const Point& point, const Point& direction, double size);
 
 // The target's unit normal there, between those of the triangle's vertices.
 Point normal_at(const FitTarget& target, const SurfacePoint& point);

@@ -37,7 +37,9 @@ std::vector<char> named_by(std::span<const Pin> pins, const Shell& shell) {
 void find_goals(const Shell& shell, const Points& positions, const FitTarget& target, const std::vector<char>& named,
                 const SettleOptions& options, const std::vector<int>& asked, Goals& goals) {
     const Points normals = vertex_normals(positions, shell.triangles);
-    const Points directions = border_directions(positions, shell.triangles, shell.topology);
+    const Triangles border = border_edges(shell.triangles, shell.topology);
+    const Points directions = border_directions(positions, border);
+    const std::vector<double> sizes = border_sizes(shell.rest, border);
     parallel_for(
         std::ssize(asked),
         [&](std::ptrdiff_t k) {
@@ -45,9 +47,9 @@ void find_goals(const Shell& shell, const Points& positions, const FitTarget& ta
             goals.positions.row(i) = positions.row(i);
             goals.normals.row(i).setZero();
             if (shell.topology.on_boundary[idx(i)]) {
-                const ClosestPoint border = closest_on_border(target, positions.row(i), directions.row(i));
-                if (border.found() && border.squared_distance <= options.reach * options.reach) {
-                    goals.positions.row(i) = border.position;
+                const ClosestPoint rim = closest_on_border(target, positions.row(i), directions.row(i), sizes[idx(i)]);
+                if (rim.found() && rim.squared_distance <= options.reach * options.reach) {
+                    goals.positions.row(i) = rim.position;
                     goals.normals.row(i) = normals.row(i);
                     return;
                 }
