@@ -24,6 +24,19 @@ TEST(Cholesky, SolvesWhatItWasGiven) {
     EXPECT_LT(test::distance(SparseCholesky(lower).solve(right), wanted), 1e-9);
 }
 
+TEST(Cholesky, APatternServesAllMatricesOfIt) {
+    const Mesh mesh = test::bar(30, 6);
+    const SparseMatrix other = held_laplacian(mesh);
+    const auto pattern = factor_pattern(other);
+    SparseMatrix lower = 3 * other;
+    lower.diagonal().array() += 0.1;
+    const Points wanted = test::shaken(mesh.positions, 2);
+    const Points right = lower.selfadjointView<Eigen::Lower>() * wanted;
+    const SparseCholesky factor(lower, pattern);
+    EXPECT_EQ(factor.solve(right), SparseCholesky(lower).solve(right));
+    EXPECT_LT((factor.solve_vector(right.col(1)) - wanted.col(1)).norm(), 1e-9);
+}
+
 TEST(Cholesky, SmallestSystems) {
     SparseMatrix one(1, 1);
     one.insert(0, 0) = 4;

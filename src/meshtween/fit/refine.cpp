@@ -203,6 +203,7 @@ ShellLevels shell_levels(const Points& rest, const Triangles& triangles, const H
         all.up.push_back(interpolation(all.levels[k].positions.rows(), std::move(points), std::move(weights)));
     }
     all.pins.resize(all.levels.size());
+    all.coarsest_factor = factor_pattern(all.shells.back().pattern);
     return all;
 }
 
@@ -279,7 +280,7 @@ Points relax(const ShellLevels& shells, std::size_t level, const Points& positio
             systems.push_back(level_system(shells, k, weights, pulls));
             systems.back().blocks = to_coarse(shells.up[k - 1], systems[systems.size() - 2]);
         }
-        solver = std::make_unique<Multigrid>(std::move(systems), shells.up, level);
+        solver = std::make_unique<Multigrid>(std::move(systems), shells.up, level, shells.coarsest_factor);
     }
     solver->solve(right, result, weights.cycles, 1e-3);
     if (weights.closeness <= 0) memory.pose = std::move(solver);

@@ -53,8 +53,9 @@ struct Pin {
 struct ShellLevels {
     std::vector<Level> levels;
     std::vector<Shell> shells;
-    std::vector<Interpolation> up;      // up[k] leads from level k + 1 to level k
-    std::vector<std::vector<Pin>> pins; // a list a level
+    std::vector<Interpolation> up;                     // up[k] leads from level k + 1 to level k
+    std::vector<std::vector<Pin>> pins;                // a list a level
+    std::shared_ptr<const Supernodes> coarsest_factor; // factor_pattern of the coarsest
 };
 ShellLevels shell_levels(const Points& rest, const Triangles& triangles, const HierarchyOptions& options = {});
 // Puts pins on the finest level and finds their places on the others.

@@ -138,8 +138,9 @@ std::vector<Matrix3d> to_coarse(const Interpolation& interpolation, const BlockS
 struct Multigrid::Data {
     VCycle cycle;
     BlockSystem finest;
-    Data(std::vector<BlockSystem> systems, const std::vector<Interpolation>& interpolations, std::size_t offset)
-        : cycle(systems, interpolations, offset), finest(std::move(systems[0])) {}
+    Data(std::vector<BlockSystem> systems, const std::vector<Interpolation>& interpolations, std::size_t offset,
+         std::shared_ptr<const Supernodes> coarsest_factor)
+        : cycle(systems, interpolations, offset, std::move(coarsest_factor)), finest(std::move(systems[0])) {}
 };
 
 namespace {
@@ -242,8 +243,8 @@ int run(Gradients& gradients, int cycles, double tolerance) {
 } // namespace
 
 Multigrid::Multigrid(std::vector<BlockSystem> systems, const std::vector<Interpolation>& interpolations,
-                     std::size_t offset)
-    : data_(std::make_unique<Data>(std::move(systems), interpolations, offset)) {}
+                     std::size_t offset, std::shared_ptr<const Supernodes> coarsest_factor)
+    : data_(std::make_unique<Data>(std::move(systems), interpolations, offset, std::move(coarsest_factor))) {}
 
 Multigrid::~Multigrid() = default;
 Multigrid::Multigrid(Multigrid&&) noexcept = default;

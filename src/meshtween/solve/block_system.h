@@ -63,12 +63,19 @@ Eigen::Matrix3d lumped_block(const BlockSystem& system, std::ptrdiff_t i);
 // The blocks of a coarser system: each fine one, lumped, shared out by its weights (the transpose, lumped).
 std::vector<Eigen::Matrix3d> to_coarse(const Interpolation& interpolation, const BlockSystem& fine);
 
+struct Supernodes;
+
+// Where the factor of systems with this pattern has entries: found once for many.
+std::shared_ptr<const Supernodes> factor_pattern(std::shared_ptr<const Pattern> pattern);
+
 // One system on several grids, finest first, prepared to be solved.
 class Multigrid {
 public:
     // interpolations[k] leads from grid k + 1 to grid k and must outlive this. Only the finest may have couplings. The
-    // coarsest is factorised. Throws Error(computation) where that one is not positive definite.
-    Multigrid(std::vector<BlockSystem> systems, const std::vector<Interpolation>& interpolations, std::size_t offset);
+    // coarsest is factorised; `coarsest_factor` is factor_pattern's of its pattern, or none. Throws Error(computation)
+    // where that one is not positive definite.
+    Multigrid(std::vector<BlockSystem> systems, const std::vector<Interpolation>& interpolations, std::size_t offset,
+              std::shared_ptr<const Supernodes> coarsest_factor = nullptr);
     ~Multigrid();
     Multigrid(Multigrid&&) noexcept;
 

@@ -139,15 +139,23 @@ std::vector<int> subtrees(const Supernodes& nodes, const std::vector<std::vector
 } // namespace
 
 struct SparseCholesky::Data {
-    Supernodes nodes;
+    std::shared_ptr<const Supernodes> pattern;
     std::vector<double> values;
     Eigen::Index tallest = 0; // rows of the tallest block
+
+    // A row a row of the matrix.
+    template <typename Matrix>
+    Matrix solve(const Matrix& right) const;
 };
 
-SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double>& matrix) {
+std::shared_ptr<const Supernodes> factor_pattern(const Eigen::SparseMatrix<double>& matrix) {
+    return std::make_shared<const Supernodes>(supernodes(matrix));
+}
+
+SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double>& matrix, std::shared_ptr<const Supernodes> pattern) {
     auto data = std::make_unique<Data>();
-    data->nodes = supernodes(matrix);
-    const Supernodes& nodes = data->nodes;
+    data->pattern = pattern ? std::move(pattern) : factor_pattern(matrix);
+    const Supernodes& nodes = *data->pattern;
     data->values.resize(nodes.value_start.back());
     const Eigen::SparseMatrix<double> ordered = permuted(matrix, nodes.permutation);
     Factorisation f{nodes, ordered, std::vector<std::vector<int>>(at(nodes.count())),
@@ -183,14 +191,14 @@ SparseCholesky::~SparseCholesky() = default;
 SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
 SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 
-Points SparseCholesky::solve(const Points& right) const {
-    const Supernodes& nodes = data_->nodes;
-    Points x(right.rows(), 3);
+template <typename Matrix>
+Matrix SparseCholesky::Data::solve(const Matrix& right) const {
+    const Supernodes& nodes = *pattern;
+    Matrix x(right.rows(), right.cols()), below(tallest, right.cols());
     for (Eigen::Index k = 0; k < x.rows(); ++k) x.row(k) = right.row(nodes.permutation[static_cast<std::size_t>(k)]);
-    Points below(data_->tallest, 3);
     const auto block = [&](int s) {
-        return ConstBlock(data_->values.data() + nodes.value_start[at(s)],
-                          static_cast<Eigen::Index>(nodes.rows_of(s).size()), nodes.columns(s));
+        return ConstBlock(values.data() + nodes.value_start[at(s)], static_cast<Eigen::Index>(nodes.rows_of(s).size()),
+                          nodes.columns(s));
     };
     for (int s = 0; s < nodes.count(); ++s) {
         const ConstBlock own = block(s);
@@ -210,9 +218,17 @@ Points SparseCholesky::solve(const Points& right) const {
         mine.noalias() -= own.bottomRows(rest).transpose() * below.topRows(rest);
         own.topRows(columns).triangularView<Eigen::Lower>().transpose().solveInPlace(mine);
     }
-    Points result(right.rows(), 3);
+    Matrix result(right.rows(), right.cols());
     for (Eigen::Index k = 0; k < x.rows(); ++k) result.row(nodes.permutation[static_cast<std::size_t>(k)]) = x.row(k);
     return result;
+}
+
+Points SparseCholesky::solve(const Points& right) const {
+    return data_->solve(right);
+}
+
+Eigen::VectorXd SparseCholesky::solve_vector(const Eigen::VectorXd& right) const {
+    return data_->solve(right);
 }
 
 } // namespace meshtween

@@ -1,7 +1,6 @@
 // Briggs, Henson, McCormick: A multigrid tutorial. SIAM 2000. The smoother is Jacobi's by blocks, damped.
 #include "meshtween/solve/v_cycle.h"
 
-#include "meshtween/core/error.h"
 #include "meshtween/core/parallel.h"
 
 #include <Eigen/LU>
@@ -50,6 +49,14 @@ Eigen::SparseMatrix<double> lower_triangle(const BlockSystem& system) {
 
 } // namespace
 
+std::shared_ptr<const Supernodes> factor_pattern(std::shared_ptr<const Pattern> pattern) {
+    BlockSystem system;
+    system.values.assign(pattern->column.size(), 1);
+    system.blocks.assign(idx(pattern->size()), Matrix3d::Ones());
+    system.pattern = std::move(pattern);
+    return factor_pattern(lower_triangle(system));
+}
+
 std::array<FloatPoint, 3> float_columns(const Matrix3d& block) {
     std::array<FloatPoint, 3> result{};
     for (int c = 0; c < 3; ++c)
@@ -75,17 +82,14 @@ FloatGrid float_grid(const BlockSystem& system) {
 }
 
 VCycle::VCycle(const std::vector<BlockSystem>& systems, const std::vector<Interpolation>& interpolations,
-               std::size_t offset)
-    : up_(interpolations.data() + offset), scratch_(systems.size()) {
+               std::size_t offset, std::shared_ptr<const Supernodes> coarsest_factor)
+    : up_(interpolations.data() + offset), coarsest_(lower_triangle(systems.back()), std::move(coarsest_factor)),
+      scratch_(systems.size()) {
     for (std::size_t k = 0; k < systems.size(); ++k) {
         grids_.push_back(float_grid(systems[k]));
         const std::size_t n = systems[k].blocks.size();
         scratch_[k] = {FloatPoints(n), FloatPoints(n), FloatPoints(n)};
     }
-    coarsest_.compute(lower_triangle(systems.back()));
-    if (coarsest_.info() != Eigen::Success)
-        throw Error(ErrorKind::computation,
-                    "the system of the coarsest mesh is singular: part of it is held by nothing");
 }
 
 const FloatPoints& VCycle::apply(const FloatPoints& right) const {
@@ -101,7 +105,7 @@ void VCycle::cycle(std::size_t level) const {
         Eigen::VectorXd b(3 * n);
         for (std::ptrdiff_t i = 0; i < n; ++i)
             for (int k = 0; k < 3; ++k) b[3 * i + k] = at.right[idx(i)][k];
-        const Eigen::VectorXd x = coarsest_.solve(b);
+        const Eigen::VectorXd x = coarsest_.solve_vector(b);
         for (std::ptrdiff_t i = 0; i < n; ++i)
             for (int k = 0; k < 3; ++k) at.now[idx(i)][k] = static_cast<float>(x[3 * i + k]);
         return;

@@ -2,8 +2,7 @@
 #pragma once
 
 #include "meshtween/solve/block_system.h"
-
-#include <Eigen/SparseCholesky>
+#include "meshtween/solve/cholesky.h"
 
 #include <array>
 #include <cstring>
@@ -30,7 +29,7 @@ class VCycle {
 public:
     // As for Multigrid.
     VCycle(const std::vector<BlockSystem>& systems, const std::vector<Interpolation>& interpolations,
-           std::size_t offset);
+           std::size_t offset, std::shared_ptr<const Supernodes> coarsest_factor);
 
     bool direct() const { return grids_.size() == 1; } // of one grid: a cycle solves it but for the rounding
     const FloatGrid& finest() const { return grids_[0]; }
@@ -47,7 +46,7 @@ private:
 
     std::vector<FloatGrid> grids_;
     const Interpolation* up_; // up_[k] leads from grid k + 1 to grid k
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> coarsest_;
+    SparseCholesky coarsest_;
     mutable std::vector<Scratch> scratch_;
 };
 
