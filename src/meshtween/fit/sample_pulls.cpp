@@ -23,10 +23,10 @@ struct Asked {
     Point right;
 };
 
-class Sum {
+class PullSum {
 public:
-    Sum(const std::vector<SamplePull>& pulls, const std::vector<double>& shares, double near, const Shell& shell,
-        const Points& positions)
+    PullSum(const std::vector<SamplePull>& pulls, const std::vector<double>& shares, double near, const Shell& shell,
+            const Points& positions)
         : pulls_(pulls), shares_(shares), near_(near), shell_(shell), positions_(positions),
           of_triangle_(gather(shell.triangles.rows(), [&](const auto& put) {
               for (std::size_t k = 0; k < pulls.size(); ++k)
@@ -92,7 +92,7 @@ std::vector<double> bearable(const std::vector<SamplePull>& pulls, const Triangl
 
 void add_pulls(const std::vector<SamplePull>& pulls, const std::vector<double>& shares, double near, const Shell& shell,
                const Points& positions, BlockSystem& system, Points& right) {
-    const Sum sum(pulls, shares, near, shell, positions);
+    const PullSum sum(pulls, shares, near, shell, positions);
     const Lists& neighbours = shell.topology.neighbours;
     if (near > 0) system.couplings = {&neighbours, std::vector<SymmetricBlock>(neighbours.items.size())};
     parallel_ranges(positions.rows(), 1024, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
