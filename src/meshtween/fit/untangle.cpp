@@ -154,11 +154,14 @@ void mend(TangleSearch& search, Patches& patches, const Cover& cover, std::span<
 }
 
 // What stands where the target has nothing, such as a cow's horns on a donkey, ends as a crumple: its layers look every
-// way, so that sliding does not take them apart. Smoothed away first, it is a small flat spot to spread.
+// way, so that sliding does not take them apart. Smoothed away first, it is a small flat spot to spread. Where cuts are
+// all over the mesh, they are no crumple.
 void melted(TangleSearch& search, const Cover& cover, std::span<const Pin> pins, double part, Untangled& result) {
     for (const bool any_sheet : {true, false}) {
         if (result.left.cuts.empty()) return;
         Patches patches = patches_around(search.shell, Tangles{{}, result.left.cuts}, melted_rings);
+        const auto everywhere = [&](const FoldedPatch& p) { return 2 * p.vertices.size() > search.shell.area.size(); };
+        if (std::any_of(patches.list.begin(), patches.list.end(), everywhere)) return;
         for (FoldedPatch& patch : patches.list) {
             patch.any_sheet = any_sheet;
             patch.melted = part;
