@@ -68,16 +68,21 @@ TEST(SurfaceFit, HowAFileCountsChangesNothing) {
         const auto t = static_cast<int>(k * m.triangles.rows() / 12);
         markers.push_back({"", {t, {1, 0, 0}}, goals.row(m.triangles(t, 0))});
     }
+    std::swap(markers[4].target, markers[5].target); // which turns triangles over
     const FitResult one = surface_fit(m, target, markers);
     for (Marker& marker : markers)
         marker.source.triangle = static_cast<int>(
             std::find(other.triangle.begin(), other.triangle.end(), marker.source.triangle) - other.triangle.begin());
     const FitResult two = surface_fit(other.mesh, shuffled(target, 3).mesh, markers);
     EXPECT_LT((as_before(other.vertex, two.positions) - one.positions).rowwise().norm().maxCoeff(), 1e-9);
-    std::vector<int> refused;
-    for (const int v : two.refused) refused.push_back(other.vertex[static_cast<std::size_t>(v)]);
-    std::sort(refused.begin(), refused.end());
-    EXPECT_EQ(refused, one.refused);
+    ASSERT_FALSE(one.mended.empty());
+    const auto before = [](std::vector<int> list, const std::vector<int>& numbers) {
+        for (int& i : list) i = numbers[static_cast<std::size_t>(i)];
+        std::sort(list.begin(), list.end());
+        return list;
+    };
+    EXPECT_EQ(before(two.refused, other.vertex), one.refused);
+    EXPECT_EQ(before(two.mended, other.triangle), one.mended);
 }
 
 } // namespace

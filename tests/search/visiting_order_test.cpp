@@ -59,6 +59,10 @@ TEST(VisitingOrder, TakesPointsThatAreNotFinite) {
     points.row(17).setConstant(NAN);
     points.row(99).setConstant(INFINITY);
     EXPECT_EQ(visiting_order(points).size(), 3000u);
+    for (int i = 0; i < 3000; i += 7) points.row(i) << NAN, (i % 5) * 0.1, NAN; // in one cell with others
+    std::vector<int> sorted = curve_order(points);
+    std::sort(sorted.begin(), sorted.end());
+    for (int i = 0; i < 3000; ++i) ASSERT_EQ(sorted[static_cast<std::size_t>(i)], i);
 }
 
 } // namespace

@@ -10,7 +10,7 @@
 
 namespace meshtween {
 
-// The pulls of the target's vertices, at most about as many as the mesh has triangles. Where the target has more, one
+// The pulls of the target's vertices. Where it has at least twice as many as the mesh has triangles (and as 500), one
 // of several neighbours pulls for all of them, in each round another. Each draws the closest compatible place of the
 // mesh no further than `reach` (diagonals) straight towards itself. All of them together weigh 1 where the mesh is near
 // and `weight` where it is an edge or more away, since flat triangles miss a round surface everywhere. How much of that

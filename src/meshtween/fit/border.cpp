@@ -41,8 +41,8 @@ Points border_directions(const Points& positions, const Triangles& border) {
 }
 
 std::vector<double> border_sizes(const Points& positions, const Triangles& border) {
+    if (border.rows() == 0) return {};
     std::vector<double> sizes(idx(positions.rows()), 0);
-    if (border.rows() == 0) return sizes;
     std::vector<int> parent(sizes.size());
     std::iota(parent.begin(), parent.end(), 0);
     const auto root = [&](int v) {

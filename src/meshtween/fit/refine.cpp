@@ -49,12 +49,11 @@ Pull pull(const FitTarget& target, const ClosestPoint& closest, const Point& nor
 void add_border_pulls(const Shell& shell, const Points& positions, const FitTarget& target, const RelaxWeights& weights,
                       std::vector<Matrix3d>& blocks, Points& right) {
     constexpr double near = 0.04; // diagonals: where the pull has faded to nothing
-    const Triangles border = border_edges(shell.triangles, shell.topology);
-    const Points directions = border_directions(positions, border);
-    const std::vector<double> sizes = border_sizes(shell.rest, border);
+    const Points directions = border_directions(positions, shell.border);
     parallel_for(positions.rows(), [&](std::ptrdiff_t i) {
         if (!shell.topology.on_boundary[idx(i)]) return;
-        const ClosestPoint closest = closest_on_border(target, positions.row(i), directions.row(i), sizes[idx(i)]);
+        const ClosestPoint closest =
+            closest_on_border(target, positions.row(i), directions.row(i), shell.border_size[idx(i)]);
         if (!closest.found()) return;
         const auto edge = target.border.row(closest.where.triangle);
         const Point along = (target.positions.row(edge[1]) - target.positions.row(edge[0])).normalized();

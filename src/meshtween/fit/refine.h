@@ -84,7 +84,7 @@ struct RelaxWeights {
 struct RelaxMemory {
     std::vector<int> places;                      // a vertex: the target's triangle of the last answer
     std::vector<int> centre_places;               // a triangle: the target's triangle
-    std::vector<int> back_places;                 // a place of the target: the mesh's triangle
+    std::vector<int> back_places;                 // a pull from the target's side: the mesh's triangle
     std::unique_ptr<ClosestPointIndex> positions; // the mesh, where the last round found it
     std::unique_ptr<Multigrid> pose;              // without closeness the system depends on the weights alone
 };

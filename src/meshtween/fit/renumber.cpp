@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace meshtween {
 namespace {
@@ -14,17 +15,29 @@ std::size_t idx(std::ptrdiff_t i) {
     return static_cast<std::size_t>(i);
 }
 
-std::array<int, 3> sorted_corners(const Triangles& triangles, std::ptrdiff_t t) {
-    std::array<int, 3> corners{triangles(t, 0), triangles(t, 1), triangles(t, 2)};
-    std::sort(corners.begin(), corners.end());
+// Sorted, then as they are.
+std::array<int, 6> key(const Triangles& triangles, std::ptrdiff_t t) {
+    const int a = triangles(t, 0), b = triangles(t, 1), c = triangles(t, 2);
+    std::array<int, 6> corners{a, b, c, a, b, c};
+    std::sort(corners.begin(), corners.begin() + 3);
     return corners;
+}
+
+// Along the curve; vertices of no triangle come anywhere, so that they do not widen its cells.
+std::vector<int> along_curve(const Points& positions, const Triangles& triangles) {
+    std::vector<char> used(idx(positions.rows()), 0);
+    for (const int v : triangles.reshaped()) used[idx(v)] = 1;
+    Points places = positions;
+    for (std::size_t v = 0; v < used.size(); ++v)
+        if (!used[v]) places.row(static_cast<Eigen::Index>(v)).setConstant(NAN);
+    return search::curve_order(places);
 }
 
 } // namespace
 
 Renumbered renumbered(const Points& positions, const Triangles& triangles) {
     Renumbered result;
-    result.vertex = search::curve_order(positions);
+    result.vertex = along_curve(positions, triangles);
     result.positions = in_order_of(result.vertex, positions);
     std::vector<int> now(result.vertex.size());
     parallel_for(std::ssize(now), [&](std::ptrdiff_t i) { now[idx(result.vertex[idx(i)])] = static_cast<int>(i); });
@@ -37,7 +50,7 @@ Renumbered renumbered(const Points& positions, const Triangles& triangles) {
     });
     parallel_for(by_first.size(), [&](std::ptrdiff_t i) {
         std::sort(by_first.items.begin() + by_first.first[idx(i)], by_first.items.begin() + by_first.first[idx(i + 1)],
-                  [&](int s, int t) { return sorted_corners(corners, s) < sorted_corners(corners, t); });
+                  [&](int s, int t) { return key(corners, s) < key(corners, t); });
     });
     result.triangle = std::move(by_first.items);
     result.triangles.resize(corners.rows(), 3);

@@ -18,7 +18,7 @@ struct Renumbered {
 };
 
 // O(n) but for the few places where many vertices are closer than a thousandth of the extent. The same mesh whatever
-// its order before, but for vertices in one place.
+// its order before, but for vertices in one place or of no triangle.
 Renumbered renumbered(const Points& positions, const Triangles& triangles);
 
 Points in_order_of(const std::vector<int>& before, const Points& x); // row i is row before[i] of x

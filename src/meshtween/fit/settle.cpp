@@ -24,7 +24,7 @@ struct Goals {
     std::vector<int> places;   // n: the triangle of the last answer, a hint for the next; -1 for none
 };
 
-// Vertices that a pin is nearest to: where they belong is known.
+// Vertices that pins lie at: where they belong is known.
 std::vector<char> named_by(std::span<const Pin> pins, const Shell& shell) {
     std::vector<char> named(shell.area.size(), 0);
     for (const Pin& pin : pins)
@@ -37,9 +37,7 @@ std::vector<char> named_by(std::span<const Pin> pins, const Shell& shell) {
 void find_goals(const Shell& shell, const Points& positions, const FitTarget& target, const std::vector<char>& named,
                 const SettleOptions& options, const std::vector<int>& asked, Goals& goals) {
     const Points normals = vertex_normals(positions, shell.triangles);
-    const Triangles border = border_edges(shell.triangles, shell.topology);
-    const Points directions = border_directions(positions, border);
-    const std::vector<double> sizes = border_sizes(shell.rest, border);
+    const Points directions = border_directions(positions, shell.border);
     parallel_for(
         std::ssize(asked),
         [&](std::ptrdiff_t k) {
@@ -47,14 +45,16 @@ void find_goals(const Shell& shell, const Points& positions, const FitTarget& ta
             goals.positions.row(i) = positions.row(i);
             goals.normals.row(i).setZero();
             if (shell.topology.on_boundary[idx(i)]) {
-                const ClosestPoint rim = closest_on_border(target, positions.row(i), directions.row(i), sizes[idx(i)]);
+                const ClosestPoint rim =
+                    closest_on_border(target, positions.row(i), directions.row(i), shell.border_size[idx(i)]);
                 if (rim.found() && rim.squared_distance <= options.reach * options.reach) {
                     goals.positions.row(i) = rim.position;
                     goals.normals.row(i) = normals.row(i);
                     return;
                 }
             }
-            const Compatible compatible{normals.row(i), named[idx(i)] ? -1 : options.least_cosine};
+            const Compatible compatible =
+                named[idx(i)] ? Compatible{} : Compatible{normals.row(i), options.least_cosine};
             int& hint = goals.places[idx(i)];
             const ClosestPoint closest = target.index.closest(Point(positions.row(i)), compatible, options.reach, hint);
             if (!closest.found()) return;

@@ -180,6 +180,8 @@ Shell shell(const Points& rest, const Triangles& triangles) {
     result.normals = vertex_normals(rest, triangles);
     const double area = surface_area(rest, triangles);
     result.area = vertex_area_shares(rest, triangles);
+    result.border = border_edges(triangles, result.topology);
+    result.border_size = border_sizes(rest, result.border);
     add_edge_weights(result);
     add_hinges(result, area);
     add_forms(result, area);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "meshtween/core/mesh.h"
+#include "meshtween/fit/border.h"
 #include "meshtween/geometry/topology.h"
 #include "meshtween/solve/block_system.h"
 
@@ -28,6 +29,8 @@ struct Shell {
     std::vector<double> area;               // n: share of the whole area
     std::vector<double> edge_weights;       // one an item of topology.neighbours: cotangent weights, kept positive
     std::vector<Hinge> hinges;              // one an inner edge
+    Triangles border;                       // border_edges
+    std::vector<double> border_size;        // border_sizes of the rest shape
     Lists vertex_hinges;                    // a list a vertex: 4 h + k where it is the k-th of hinge h, ascending
     std::shared_ptr<const Pattern> pattern; // entries of both quadratic forms below
     std::vector<double> bending;            // sum over hinges of weight coefficients coefficients^T

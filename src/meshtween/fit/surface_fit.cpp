@@ -134,7 +134,7 @@ Similarity start(const Renumbered& source, const Renumbered& target, std::span<c
 
 Frame frame_of(const Renumbered& source, const Points& target, std::span<const Marker> markers) {
     Frame frame;
-    frame.origin = target.colwise().mean();
+    frame.origin = target.cast<long double>().colwise().mean().cast<double>(); // the same in any order
     Points from(std::ssize(markers), 3), to(std::ssize(markers), 3);
     for (std::size_t k = 0; k < markers.size(); ++k) {
         from.row(static_cast<Eigen::Index>(k)) = position(source.positions, source.triangles, markers[k].source);
@@ -215,6 +215,53 @@ Points articulate(const ShellLevels& shells, const FitTarget& target) {
 Points on_finest(const ShellLevels& shells, std::size_t level, Points x) {
     for (; level > 0; --level) x = refine_positions(shells, level, x, true);
     return x;
+}
+
+// The shell on the surface, before the last steps.
+struct Closed {
+    Points positions;
+    int rounds = 0;
+    bool cancelled = false;
+};
+
+// From the pose on the coarsest level to the finest. Cancelled, it goes on to the whole mesh without relaxing.
+Closed close_in(const ShellLevels& shells, TangleSearch& search, Closed posed, double marker_weight,
+                const std::function<void(const Points&)>& watch, const Progress& progress) {
+    const std::size_t levels = shells.levels.size();
+    const int rounds = rounds_a_level * static_cast<int>(levels);
+    const double rate = std::pow(last_length / first_length, 1.0 / (rounds - 1));
+    const double slide_rate = std::pow(last_slide / first_slide, 1.0 / (rounds - 1));
+    RelaxWeights weights;
+    weights.length = first_length;
+    weights.slide = first_slide;
+    weights.membrane = 1e-3;
+    weights.calm_turn = calm_turn;
+    weights.pins *= marker_weight;
+    Closed result = std::move(posed);
+    Points& x = result.positions;
+    double done = 0, work = 0; // in vertices seen, for the progress
+    for (const Level& level : shells.levels) work += static_cast<double>(level.positions.rows()) * rounds_a_level;
+    for (std::size_t k = levels; k-- > 0;) {
+        RelaxMemory memory;
+        weights.back = k > 0 && k + 1 == levels ? coarsest_back : 1;
+        for (int round = 0; round < rounds_a_level; ++round, weights.length *= rate, weights.slide *= slide_rate) {
+            const bool whole = k == 0 && levels > 1 && round >= rounds_a_level - whole_rounds;
+            weights.centres = whole ? centres_share * (1 - weights.membrane) : 0;
+            weights.round = result.rounds;
+            weights.cycles = weights.centres > 0 ? whole_cycles : RelaxWeights().cycles;
+            result.cancelled = result.cancelled || !keep_going(progress, 0.15 + 0.75 * done / work, "fitting");
+            if (result.cancelled) break;
+            Points relaxed = relax(shells, k, x, search.target, weights, memory);
+            x = k == 0 ? held_back(search, x, relaxed) : std::move(relaxed);
+            done += static_cast<double>(x.rows());
+            ++result.rounds;
+            if (watch) watch(on_finest(shells, k, x));
+        }
+        weights.membrane = membrane_share(strain(shells.shells[k], x));
+        if (k > 0) x = refine_positions(shells, k, x, weights.with_scale);
+        if (k == 1 && !result.cancelled) x = eased(search, x);
+    }
+    return result;
 }
 
 // What the last steps leave.
@@ -318,45 +365,19 @@ FitResult surface_fit(const Mesh& source_mesh, const Mesh& target_mesh, std::spa
     const ShellLevels& shells = sides.shells;
     result.twins = static_cast<int>(shells.pins[0].size() - markers.size());
 
-    const std::size_t levels = shells.levels.size();
-    bool going = keep_going(progress, 0.1, "posing");
-    Points x = articulate(shells, target);
-    const int rounds = rounds_a_level * static_cast<int>(levels);
-    const double rate = std::pow(last_length / first_length, 1.0 / (rounds - 1));
-    const double slide_rate = std::pow(last_slide / first_slide, 1.0 / (rounds - 1));
-    RelaxWeights weights;
-    weights.length = first_length;
-    weights.slide = first_slide;
-    weights.membrane = 1e-3;
-    weights.calm_turn = calm_turn;
-    weights.pins *= options.marker_weight;
+    std::function<void(const Points&)> watch;
+    if (options.watch)
+        watch = [&](const Points& on_curve) { options.watch(frame.out(as_before(source.vertex, on_curve))); };
     TangleSearch search{shells.shells[0], target, {}};
-    double done = 0, work = 0; // in vertices seen, for the progress
-    for (const Level& level : shells.levels) work += static_cast<double>(level.positions.rows()) * rounds_a_level;
-    for (std::size_t k = levels; k-- > 0;) {
-        RelaxMemory memory;
-        weights.back = k > 0 && k + 1 == levels ? coarsest_back : 1;
-        for (int round = 0; round < rounds_a_level; ++round, weights.length *= rate, weights.slide *= slide_rate) {
-            const bool whole = k == 0 && levels > 1 && round >= rounds_a_level - whole_rounds;
-            weights.centres = whole ? centres_share * (1 - weights.membrane) : 0;
-            weights.round = result.rounds;
-            weights.cycles = weights.centres > 0 ? whole_cycles : RelaxWeights().cycles;
-            going = going && keep_going(progress, 0.15 + 0.75 * done / work, "fitting");
-            if (!going) break;
-            Points relaxed = relax(shells, k, x, target, weights, memory);
-            x = k == 0 ? held_back(search, x, relaxed) : std::move(relaxed);
-            done += static_cast<double>(x.rows());
-            ++result.rounds;
-            if (options.watch) options.watch(frame.out(as_before(source.vertex, on_finest(shells, k, x))));
-        }
-        weights.membrane = membrane_share(strain(shells.shells[k], x));
-        if (k > 0) x = refine_positions(shells, k, x, weights.with_scale);
-        if (k == 1 && going) x = eased(search, x);
-    }
+    Closed closed{{}, 0, !keep_going(progress, 0.1, "posing")};
+    closed.positions = articulate(shells, target);
+    closed = close_in(shells, search, std::move(closed), options.marker_weight, watch, progress);
+    result.rounds = closed.rounds;
+    Points x = std::move(closed.positions);
     const std::span<const Pin> held =
         options.marker_weight > 0 ? std::span<const Pin>(shells.pins[0]).first(markers.size()) : std::span<const Pin>();
     Landed landed{x, Points::Zero(x.rows(), 3), {}, {}};
-    if (going) landed = land(search, held, x, options.on_surface, part_of(progress, 0.9, 1), result);
+    if (!closed.cancelled) landed = land(search, held, x, options.on_surface, part_of(progress, 0.9, 1), result);
     x = std::move(landed.positions);
     for (Eigen::Index i = 0; i < x.rows(); ++i) // vertices of no triangle go where the similarity takes them
         if (shells.shells[0].topology.vertex_triangles[i].empty()) x.row(i) = rest.row(i);
@@ -365,7 +386,7 @@ FitResult surface_fit(const Mesh& source_mesh, const Mesh& target_mesh, std::spa
     leave_grid(x, target, in_order_of(on_the_grid.vertex, in_frame), landed.places);
     x += landed.lift;
     result.positions = frame.out(as_before(source.vertex, x));
-    result.end = going && !landed.cancelled ? FitEnd::converged : FitEnd::cancelled;
+    result.end = !closed.cancelled && !landed.cancelled ? FitEnd::converged : FitEnd::cancelled;
     keep_going(progress, 1, "done");
     return result;
 }

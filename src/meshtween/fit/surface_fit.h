@@ -5,9 +5,9 @@
 
 namespace meshtween {
 
-// The stages one after the other: align, shell_levels, relax with the markers alone, relax level by level, settle,
-// untangle, crease, lift. Any number of markers; with none the start is a guess from the principal axes, which a note
-// tells. Same arguments and errors as fit().
+// The stages one after the other: renumbered, align, shell_levels, relax with the markers alone, relax level by level,
+// settle, untangle, crease, lift. Any number of markers; with none the start is a guess from the principal axes, which
+// a note tells. Same arguments and errors as fit().
 FitResult surface_fit(const Mesh& source, const Mesh& target, std::span<const Marker> markers,
                       const FitOptions& options = {}, const Progress& progress = {});
 

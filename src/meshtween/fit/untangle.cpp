@@ -160,8 +160,9 @@ void melted(TangleSearch& search, const Cover& cover, std::span<const Pin> pins,
     for (const bool any_sheet : {true, false}) {
         if (result.left.cuts.empty()) return;
         Patches patches = patches_around(search.shell, Tangles{{}, result.left.cuts}, melted_rings);
-        const auto everywhere = [&](const FoldedPatch& p) { return 2 * p.vertices.size() > search.shell.area.size(); };
-        if (std::any_of(patches.list.begin(), patches.list.end(), everywhere)) return;
+        std::ptrdiff_t cut = 0; // vertices
+        for (const FoldedPatch& patch : patches.list) cut += std::ranges::count(patch.remote, 0.0);
+        if (10 * cut > std::ssize(search.shell.area)) return;
         for (FoldedPatch& patch : patches.list) {
             patch.any_sheet = any_sheet;
             patch.melted = part;

@@ -78,7 +78,11 @@ std::vector<int> curve_order(const Points& points) {
     std::vector<int> order(keys.size());
     std::transform(keys.begin(), keys.end(), order.begin(),
                    [](std::uint64_t key) { return static_cast<int>(key & 0xffffffff); });
-    const auto place = [&](int i) { return std::array{points(i, 0), points(i, 1), points(i, 2)}; };
+    const auto place = [&](int i) {
+        std::array<double, 3> p{};
+        for (int k = 0; k < 3; ++k) p[static_cast<std::size_t>(k)] = std::isnan(points(i, k)) ? INFINITY : points(i, k);
+        return p;
+    };
     for (std::size_t begin = 0, end = 0; begin < keys.size(); begin = end) {
         while (end < keys.size() && keys[end] >> 32 == keys[begin] >> 32) ++end;
         std::sort(order.begin() + static_cast<std::ptrdiff_t>(begin), order.begin() + static_cast<std::ptrdiff_t>(end),

@@ -1,4 +1,5 @@
-// Symmetric systems over points: scalar couplings between vertices, full 3 x 3 blocks on the diagonal.
+// Symmetric systems over points: scalars between vertices, full 3 x 3 blocks on the diagonal and, where there are
+// couplings, between neighbours.
 #pragma once
 
 #include "meshtween/core/mesh.h"
@@ -29,14 +30,14 @@ struct Interpolation {
     std::vector<int> first{0}, fine, slot; // of each coarse point: the fine points that it reaches
 };
 
-// In floats, for there are many.
+// In floats, for there are many; in the order in which v_cycle.h loads them.
 struct SymmetricBlock {
     float xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, zx = 0;
 };
 SymmetricBlock rounded(const Eigen::Matrix3d& block);
 Point times(const SymmetricBlock& block, const Point& x);
 
-// Full blocks beside the diagonal, block (i, j) the same as block (j, i).
+// Full blocks beside the diagonal, block (i, j) the same as block (j, i) but for roundings.
 struct Couplings {
     const Lists* neighbours = nullptr;  // of each point, ascending; must outlive this
     std::vector<SymmetricBlock> blocks; // one an item of the lists
@@ -57,7 +58,7 @@ Points apply(const BlockSystem& system, const Points& x); // n x 3: the matrix t
 Interpolation interpolation(std::ptrdiff_t coarse_count, std::vector<std::array<int, 3>> points,
                             std::vector<Eigen::RowVector3d> weights);
 // blocks[i] and all that couples i with others, as if they moved alike. Where couplings come of squares of weighted
-// means (weights not negative), the system is never less with these blocks alone.
+// means (weights not negative), the system is never less with these blocks alone, to the rounding of floats.
 Eigen::Matrix3d lumped_block(const BlockSystem& system, std::ptrdiff_t i);
 
 // The blocks of a coarser system: each fine one, lumped, shared out by its weights (the transpose, lumped).

@@ -20,7 +20,8 @@ std::size_t idx(std::ptrdiff_t i) {
     return static_cast<std::size_t>(i);
 }
 
-Eigen::SparseMatrix<double> lower_triangle(const BlockSystem& system) {
+// With `ridge` of its greatest entry added to the diagonal, so that roundings leave it positive definite.
+Eigen::SparseMatrix<double> lower_triangle(const BlockSystem& system, double ridge) {
     std::vector<Eigen::Triplet<double>> entries;
     const Pattern& p = *system.pattern;
     double greatest = 0;
@@ -38,7 +39,7 @@ Eigen::SparseMatrix<double> lower_triangle(const BlockSystem& system) {
                 for (int k = 0; k < 3; ++k)
                     for (int l = 0; l <= k; ++l)
                         entries.emplace_back(3 * i + k, 3 * i + l,
-                                             block(k, l) + (k == l ? value + 1e-12 * greatest : 0));
+                                             block(k, l) + (k == l ? value + ridge * greatest : 0));
         }
     }
     const auto n = 3 * static_cast<Eigen::Index>(system.blocks.size());
@@ -54,7 +55,7 @@ std::shared_ptr<const Supernodes> factor_pattern(std::shared_ptr<const Pattern> 
     system.values.assign(pattern->column.size(), 1);
     system.blocks.assign(idx(pattern->size()), Matrix3d::Ones());
     system.pattern = std::move(pattern);
-    return factor_pattern(lower_triangle(system));
+    return factor_pattern(lower_triangle(system, 0));
 }
 
 std::array<FloatPoint, 3> float_columns(const Matrix3d& block) {
@@ -83,7 +84,9 @@ FloatGrid float_grid(const BlockSystem& system) {
 
 VCycle::VCycle(const std::vector<BlockSystem>& systems, const std::vector<Interpolation>& interpolations,
                std::size_t offset, std::shared_ptr<const Supernodes> coarsest_factor)
-    : up_(interpolations.data() + offset), coarsest_(lower_triangle(systems.back()), std::move(coarsest_factor)),
+    : up_(interpolations.data() + offset),
+      coarsest_(lower_triangle(systems.back(), systems[0].couplings.empty() ? 1e-12 : 1e-7),
+                std::move(coarsest_factor)),
       scratch_(systems.size()) {
     for (std::size_t k = 0; k < systems.size(); ++k) {
         grids_.push_back(float_grid(systems[k]));

@@ -5,6 +5,7 @@
 #include "meshtween/solve/cholesky.h"
 
 #include <array>
+#include <cstddef>
 #include <cstring>
 #include <memory>
 #include <vector>
@@ -55,6 +56,7 @@ inline FloatPoint times(const std::array<FloatPoint, 3>& columns, const FloatPoi
     return columns[0] * x[0] + columns[1] * x[1] + columns[2] * x[2];
 }
 inline FloatPoint times(const SymmetricBlock& block, const FloatPoint& x) {
+    static_assert(sizeof block == 24 && offsetof(SymmetricBlock, zz) == 8);
     FloatPoint diagonal, beside; // xx yy zz -, - xy yz zx; what is not meant meets the nought in x
     std::memcpy(&diagonal, &block.xx, sizeof diagonal);
     std::memcpy(&beside, &block.zz, sizeof beside);
