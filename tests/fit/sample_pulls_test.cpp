@@ -79,11 +79,11 @@ TEST(SamplePulls, AreTheGradientOfWhatTheyCost) {
 }
 
 TEST(BackPulls, OneOfSeveralNeighboursPullsForAllOfThem) {
-    const Mesh m = sphere(3);
+    const Mesh m = sphere(2);
     const Mesh fine = sphere(5);
     const FitTarget target = fit_target(fine.positions, fine.triangles);
     const Shell coarse = shell(m.positions, m.triangles);
-    ASSERT_GE(fine.positions.rows(), 4 * m.triangles.rows());
+    ASSERT_GE(fine.positions.rows(), 8 * m.triangles.rows());
     const auto strengths = [&](int round) {
         RelaxMemory memory;
         std::vector<double> list;
@@ -92,8 +92,8 @@ TEST(BackPulls, OneOfSeveralNeighboursPullsForAllOfThem) {
         return list;
     };
     const std::vector<double> one = strengths(0), other = strengths(1);
-    EXPECT_LT(one.size(), 1.1 * static_cast<double>(m.triangles.rows()));
-    EXPECT_NEAR(std::accumulate(one.begin(), one.end(), 0.0), 1, 0.02); // normals differ a little
+    EXPECT_LT(one.size(), 3 * static_cast<double>(m.triangles.rows()));
+    EXPECT_NEAR(std::accumulate(one.begin(), one.end(), 0.0), 1, 0.05); // normals differ a little
     EXPECT_NE(one, other);
 }
 

@@ -18,6 +18,7 @@
 namespace meshtween {
 namespace {
 
+constexpr Eigen::Index most_samples = 2;    // a triangle of the mesh
 constexpr Eigen::Index least_samples = 500; // thin parts must be seen on the coarsest level already
 
 std::size_t idx(std::ptrdiff_t i) {
@@ -65,7 +66,8 @@ std::vector<SamplePull> back_pulls(const Shell& shell, const Points& positions, 
     const auto& rim = shell.topology.on_boundary;
     const bool open = std::find(rim.begin(), rim.end(), 1) != rim.end();
     const Eigen::Index all = target.positions.rows(),
-                       step = std::max<Eigen::Index>(1, all / std::max(least_samples, shell.triangles.rows()));
+                       step = std::max<Eigen::Index>(
+                           1, all / std::max(least_samples, most_samples * shell.triangles.rows()));
     const double edge = mean_edge(shell, positions);
     std::vector<SamplePull> pulls(idx((all + step - 1) / step));
     memory.back_places.resize(pulls.size(), -1);
