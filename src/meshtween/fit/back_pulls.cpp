@@ -28,7 +28,7 @@ std::size_t idx(std::ptrdiff_t i) {
 // What an open mesh is nearest to with its rim may lie beyond it: nothing is found for that.
 ClosestPoint place_on_open(const ClosestPointIndex& index, const Shell& shell, const Point& from, const Point& normal,
                            double reach, int hint) {
-    const ClosestPoint closest = index.closest(from, hint);
+    ClosestPoint closest = index.closest(from, hint);
     const int t = closest.where.triangle;
     if (closest.squared_distance > reach * reach || index.normals().row(t).dot(normal) <= 0) return {};
     for (int k = 0; k < 3; ++k)

@@ -110,8 +110,9 @@ bool on_one_line(const Points& points) {
 Similarity start(const Renumbered& source, const Renumbered& target, std::span<const Marker> markers,
                  const Points& goals, std::vector<std::string>& notes) {
     if (markers.empty()) {
-        notes.push_back("no markers: the start is a guess, as the files stand or by their principal axes; look at the "
-                        "result, and place a few markers if it is turned the wrong way");
+        notes.emplace_back(
+            "no markers: the start is a guess, as the files stand or by their principal axes; look at the "
+            "result, and place a few markers if it is turned the wrong way");
         return align_axes(source.positions, source.triangles, target.positions, target.triangles);
     }
     Points from(goals.rows(), 3);

@@ -196,7 +196,8 @@ void mark_corners(const Triangles& triangles, const std::array<int, 2>& pair, st
 
 Points held_back(TangleSearch& search, const Points& before, const Points& now) {
     constexpr int rounds = 3;
-    constexpr double fading = 0.25; // a ring
+    constexpr int faded = 4; // rings
+    constexpr double fading = 1.0 / faded;
     const Triangles& triangles = search.shell.triangles;
     const Lists& neighbours = search.shell.topology.neighbours;
     Points result = now;
@@ -215,7 +216,7 @@ Points held_back(TangleSearch& search, const Points& before, const Points& now) 
         for (const auto& pair : cuts)
             if (!lost(pair[0]) && !lost(pair[1])) mark_corners(triangles, pair, share);
         spread(neighbours, share, 0);
-        for (double reached = 1; reached > fading; reached -= fading) spread(neighbours, share, fading);
+        for (int ring = 1; ring < faded; ++ring) spread(neighbours, share, fading);
         for (Eigen::Index i = 0; i < result.rows(); ++i)
             if (share[idx(i)] > 0) result.row(i) += share[idx(i)] * (before.row(i) - result.row(i));
     }
