@@ -61,6 +61,25 @@ TEST(Nudge, TurnsWhatIsTurnedOverAndLeavesTheRest) {
     }
 }
 
+// A lens as thin as a fiftieth of its width, with its topmost vertex pressed through to the other side.
+TEST(Nudge, TakesApartWhatCutsThoughNothingIsTurnedOver) {
+    Mesh lens = sphere(3);
+    lens.positions *= Eigen::Vector3d(0.5, 0.5, 0.01).asDiagonal();
+    const FitTarget target = fit_target(lens.positions, lens.triangles);
+    const Shell rest = shell(lens.positions, lens.triangles);
+    TangleSearch search{rest, target, {}};
+    Points x = lens.positions;
+    Eigen::Index top = 0;
+    x.col(2).maxCoeff(&top);
+    x(top, 2) = -0.0105;
+    const Tangles before = tangles(search, x);
+    ASSERT_TRUE(before.flips.empty());
+    ASSERT_FALSE(before.cuts.empty());
+    const Nudged done = nudge(search, x, before, {});
+    EXPECT_EQ(done.left.count(), 0U);
+    EXPECT_EQ(tangles(search, done.positions).count(), 0U);
+}
+
 TEST(Nudge, MarkersComeNoFurtherOff) {
     Folded folded;
     TangleSearch search{folded.rest, ball(), {}};

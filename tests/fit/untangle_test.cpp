@@ -182,20 +182,19 @@ TEST(Tangles, NewCutsBesideKnownOnesAreTakenBack) {
     const Ball ball;
     TangleSearch search = ball.search();
     const Points folded = folded_over(ball.mesh.positions, 1.0);
-    const std::vector<int> places(static_cast<std::size_t>(folded.rows()), -1);
     const Tangles none;
-    EXPECT_EQ(without_new_cuts(search, ball.mesh.positions, none, folded, places), folded) << "no known cuts";
+    EXPECT_EQ(without_new_cuts(search, ball.mesh.positions, none, folded), folded) << "no known cuts";
     const auto cuts = new_cuts(search, folded);
     ASSERT_GT(cuts.size(), 10U);
     search.known->source = {cuts.front()};
     std::vector<char> chosen(static_cast<std::size_t>(ball.mesh.triangles.rows()), 0);
     for (const int t : cuts.front()) chosen[static_cast<std::size_t>(t)] = 1;
     EXPECT_FALSE(new_cuts(search, folded, chosen).empty());
-    const Points result = without_new_cuts(search, ball.mesh.positions, none, folded, places);
+    const Points result = without_new_cuts(search, ball.mesh.positions, none, folded);
     EXPECT_TRUE(new_cuts(search, result, chosen).empty());
     EXPECT_NE(result, ball.mesh.positions) << "the rest moves on";
     const Tangles left{{}, new_cuts(search, folded)};
-    EXPECT_EQ(without_new_cuts(search, ball.mesh.positions, left, folded, places), folded) << "cut before";
+    EXPECT_EQ(without_new_cuts(search, ball.mesh.positions, left, folded), folded) << "cut before";
 }
 
 } // namespace

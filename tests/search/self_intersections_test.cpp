@@ -14,18 +14,18 @@ namespace {
 using Pairs = std::vector<std::array<int, 2>>;
 
 // Triangles of their own: three rows a triangle, nothing shared.
-Pairs pairs_of_soup(const Points& positions) {
+Pairs pairs_of_soup(const Points& positions, double gap = 0) {
     Triangles triangles(positions.rows() / 3, 3);
     for (int i = 0; i < static_cast<int>(positions.rows()); ++i) triangles(i / 3, i % 3) = i;
-    return self_intersections(positions, triangles);
+    return self_intersections(positions, triangles, gap);
 }
 
-bool two_meet(const Points& first, const Points& second) {
+bool two_meet(const Points& first, const Points& second, double gap = 0) {
     Points positions(6, 3);
     positions << first, second;
-    const bool meet = !pairs_of_soup(positions).empty();
+    const bool meet = !pairs_of_soup(positions, gap).empty();
     positions << second.colwise().reverse(), first; // neither order nor turn matters
-    EXPECT_EQ(!pairs_of_soup(positions).empty(), meet);
+    EXPECT_EQ(!pairs_of_soup(positions, gap).empty(), meet);
     return meet;
 }
 
@@ -50,6 +50,19 @@ TEST(SelfIntersections, TouchingIsMeeting) {
     EXPECT_TRUE(two_meet(flat, triangle({4, 0, 0}, {9, 0, 1}, {9, 1, 1})));  // corner to corner
     EXPECT_TRUE(two_meet(flat, triangle({1, -1, 0}, {1, 1, 0}, {1, 0, 5}))); // an edge in the plane
     EXPECT_FALSE(two_meet(flat, triangle({std::nextafter(4.0, 5.0), 0, 0}, {9, 0, 1}, {9, 1, 1})));
+}
+
+TEST(SelfIntersections, WithAGapWhatAlmostTouchesCounts) {
+    const auto above = [](double height) { return triangle({1, 1, height}, {1, 2, 1}, {2, 1, 1}); };
+    EXPECT_FALSE(two_meet(flat, above(1e-9)));
+    EXPECT_TRUE(two_meet(flat, above(1e-9), 1e-7));
+    EXPECT_FALSE(two_meet(flat, above(1e-6), 1e-7));
+    const auto sheet = [](double x, double height) { return triangle({x, 1, height}, {x + 1, 1, 0}, {x, 2, -height}); };
+    EXPECT_TRUE(two_meet(flat, sheet(0.5, 1e-9), 1e-7)) << "within the face, all but in its plane";
+    EXPECT_FALSE(two_meet(flat, sheet(3.5, 1e-9), 1e-7)) << "beside it";
+    Points corner(5, 3); // two faces of a flat sheet with one corner in common
+    corner << 0, 0, 0, 4, 0, 0, 0, 4, 0, -4, 0, 1e-9, 0, -4, 1e-9;
+    EXPECT_TRUE(self_intersections(corner, Triangles{{0, 1, 2}, {0, 3, 4}}, 1e-7).empty());
 }
 
 TEST(SelfIntersections, TrianglesInOnePlane) {

@@ -3,9 +3,9 @@
 #include "meshtween/fit/nudge.h"
 
 #include "meshtween/core/parallel.h"
+#include "meshtween/fit/cut_length.h"
 #include "meshtween/fit/facing.h"
 #include "meshtween/geometry/measure.h"
-#include "meshtween/search/self_intersections.h"
 
 #include <Eigen/Geometry>
 
@@ -17,8 +17,11 @@
 namespace meshtween {
 namespace {
 
-constexpr std::array steps{0.1, 0.2, 0.4}; // of a vertex's shortest edge
-constexpr int directions = 8;              // along the target
+// What a vertex tries in turn: small steps, as long as they turn a triangle; after a round in vain wide ones.
+constexpr std::array small_steps{0.1, 0.2, 0.4}; // of its shortest edge
+constexpr std::array wide_steps{0.2, 0.4, 0.8};  // of its mean edge
+constexpr double to_neighbour = 0.7;             // of the way there, on wide rounds
+constexpr int directions = 8;                    // along the target
 // Above and below the target, in mean edges around a vertex, where it may leave it: a flat triangle whose corners lie
 // on both sides of a valley or a thin sheet comes off the wrong wall so.
 constexpr std::array heights{0.0, 0.1, -0.1, 0.2, -0.2};
@@ -26,10 +29,25 @@ constexpr double least_area = 0.1; // of the smallest triangle's before
 // What a triangle that looks into the target costs beside its detour (in edges), as such and by how much it does; and
 // what the squared distances of all triangles and of the vertex itself cost.
 constexpr double as_such = 0.1, by_cosine = 0.2, by_distance = 0.1;
-constexpr int most_rounds = 10, patient_rounds = 3; // in all; that turn no further triangle
+// In all, and in a row that mend nothing further. Where more than a few faults are left the shapes are not alike: their
+// cuts stay, and the flips get less of the time.
+struct Rounds {
+    int most, patient;
+    bool wide, cuts;
+};
+constexpr std::size_t few_faults = 300;
+constexpr Rounds for_few{40, 6, true, true}, for_many{10, 3, false, false};
 
 std::size_t idx(std::ptrdiff_t i) {
     return static_cast<std::size_t>(i);
+}
+
+std::vector<int> faulty(const Tangles& faults) {
+    std::vector<int> triangles = faults.flips;
+    for (const auto& pair : faults.cuts) triangles.insert(triangles.end(), pair.begin(), pair.end());
+    std::sort(triangles.begin(), triangles.end());
+    triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+    return triangles;
 }
 
 // What does not move.
@@ -39,17 +57,20 @@ struct Ground {
     std::span<const Pin> pins;
     std::vector<std::vector<int>> pins_at; // a vertex: those in the triangles around it
     double unit = 0;                       // a typical edge
+    std::vector<int> beside_cuts;          // triangles
     bool leave = false;                    // vertices may leave the target
 };
 
 Ground ground_of(const Shell& shell, const FitTarget& target, std::span<const Pin> pins, const Points& positions,
-                 const std::vector<int>& flips, bool leave) {
-    Ground ground{shell, target, pins, std::vector<std::vector<int>>(idx(positions.rows())), 0, leave};
+                 const Tangles& faults, bool leave) {
+    Ground ground{shell, target, pins, std::vector<std::vector<int>>(idx(positions.rows())), 0, {}, leave};
+    ground.beside_cuts = beside_cuts(shell, faults.cuts);
     for (std::size_t k = 0; k < pins.size(); ++k)
         for (int c = 0; c < 3; ++c)
             ground.pins_at[idx(shell.triangles(pins[k].where.triangle, c))].push_back(static_cast<int>(k));
-    for (const int t : flips) ground.unit += std::sqrt(double_area_normal(positions, shell.triangles, t).norm());
-    ground.unit /= static_cast<double>(flips.size());
+    const std::vector<int> triangles = faulty(faults);
+    for (const int t : triangles) ground.unit += std::sqrt(double_area_normal(positions, shell.triangles, t).norm());
+    ground.unit /= static_cast<double>(triangles.size());
     return ground;
 }
 
@@ -60,9 +81,10 @@ struct Around {
     double least_area = std::numeric_limits<double>::infinity();
 };
 
-// Of a vertex at that squared distance from the target; not past `most`, of the cost.
+// Of a vertex at that squared distance from the target; not past `most`, of the cost. `sheets` are the triangles that
+// its own could cut.
 Around around(const Ground& ground, const Points& x, Eigen::Index vertex, double squared_distance,
-              double most = std::numeric_limits<double>::infinity()) {
+              const std::vector<int>& sheets, double most = std::numeric_limits<double>::infinity()) {
     const Triangles& triangles = ground.shell.triangles;
     const double per_square = by_distance / (ground.unit * ground.unit);
     Around result;
@@ -71,6 +93,10 @@ Around around(const Ground& ground, const Points& x, Eigen::Index vertex, double
         const Pin& pin = ground.pins[idx(k)];
         result.markers += (position(x, triangles, pin.where) - pin.target).squaredNorm();
     }
+    for (const int s : sheets)
+        for (const int t : ground.shell.topology.vertex_triangles[vertex])
+            if (const auto length = cut_length(x, triangles, s, t)) result.cost += as_such + *length / ground.unit;
+    if (result.cost > most) return result;
     int last = -1; // where the last answer lay is near the next
     for (const int t : ground.shell.topology.vertex_triangles[vertex]) {
         const Point centre = (x.row(triangles(t, 0)) + x.row(triangles(t, 1)) + x.row(triangles(t, 2))) / 3;
@@ -86,24 +112,28 @@ Around around(const Ground& ground, const Points& x, Eigen::Index vertex, double
 }
 
 // Moves the vertex where it does best, of some places around its own.
-void to_best_place(const Ground& ground, Points& x, Eigen::Index vertex) {
+void to_best_place(const Ground& ground, Points& x, Eigen::Index vertex, bool wide) {
     const auto neighbours = ground.shell.topology.neighbours[vertex];
     const Point start = x.row(vertex);
+    Point middle(0, 0, 0);
     double shortest = std::numeric_limits<double>::infinity(), mean = 0;
     for (const int j : neighbours) {
         const double length = (x.row(j) - start).norm();
         shortest = std::min(shortest, length);
         mean += length / static_cast<double>(neighbours.size());
+        middle += x.row(j) / static_cast<double>(neighbours.size());
     }
     const ClosestPoint here = ground.target.index.closest(start);
-    const Around before = around(ground, x, vertex, here.squared_distance);
+    const std::vector<int> sheets =
+        near_vertex(ground.shell, x, vertex, ground.beside_cuts, mean * wide_steps.back()); // no step is longer
+    const Around before = around(ground, x, vertex, here.squared_distance, sheets);
     double best = before.cost;
     Point place = start;
     const auto try_over = [&](const ClosestPoint& there) {
         const Point up = mean * normal_at(ground.target, there.where);
         for (const double height : std::span(heights).first(ground.leave ? heights.size() : 1)) {
             x.row(vertex) = there.position + height * up;
-            const Around now = around(ground, x, vertex, height * height * mean * mean, best);
+            const Around now = around(ground, x, vertex, height * height * mean * mean, sheets, best);
             if (!(now.cost < best) || now.least_area < least_area * before.least_area || now.markers > before.markers)
                 continue;
             best = now.cost;
@@ -113,20 +143,26 @@ void to_best_place(const Ground& ground, Points& x, Eigen::Index vertex) {
     try_over(here);
     const Point normal = normal_at(ground.target, here.where);
     const Point u = normal.unitOrthogonal(), v = normal.cross(u);
-    for (const double step : steps)
+    for (const double step : wide ? wide_steps : small_steps)
         for (int k = 0; k < directions; ++k) {
             const double angle = 2 * EIGEN_PI * k / directions;
             const Point way = std::cos(angle) * u + std::sin(angle) * v;
-            try_over(ground.target.index.closest(Point(start + step * shortest * way), here.where.triangle));
+            const Point there = start + step * (wide ? mean : shortest) * way;
+            try_over(ground.target.index.closest(there, here.where.triangle));
         }
+    if (wide) {
+        try_over(ground.target.index.closest(middle));
+        for (const int j : neighbours)
+            try_over(ground.target.index.closest(Point(start + to_neighbour * (x.row(j) - start))));
+    }
     x.row(vertex) = place;
 }
 
-// The vertices of the flips and their neighbours, in connected parts. The border stays.
-std::vector<std::vector<int>> parts_around(const Shell& shell, const std::vector<int>& flips) {
+// The vertices of these triangles and their neighbours, in connected parts. The border stays.
+std::vector<std::vector<int>> parts_around(const Shell& shell, const std::vector<int>& triangles) {
     const Lists& neighbours = shell.topology.neighbours;
     std::vector<char> near(idx(shell.rest.rows()), 0);
-    for (const int t : flips)
+    for (const int t : triangles)
         for (int k = 0; k < 3; ++k) {
             near[idx(shell.triangles(t, k))] = 1;
             for (const int j : neighbours[shell.triangles(t, k)]) near[idx(j)] = 1;
@@ -146,37 +182,60 @@ std::vector<std::vector<int>> parts_around(const Shell& shell, const std::vector
     return parts;
 }
 
-// Where a part has come to cut more than it did, the vertices of what is cut by it go back.
-void take_back_cuts(const Shell& shell, const std::vector<std::vector<int>>& parts, const Points& x, Points& now) {
-    const Triangles& triangles = shell.triangles;
-    std::vector<int> part(idx(x.rows()), -1);
+using Pairs = std::vector<std::array<int, 2>>;
+
+// Which part each vertex belongs to, or -1.
+struct PartOf {
+    const Triangles& triangles;
+    std::vector<int> vertex;
+    std::size_t count = 0; // of parts
+
+    std::vector<int> at(const std::array<int, 2>& pair) const {
+        std::vector<int> result;
+        for (const int t : pair)
+            for (int k = 0; k < 3; ++k)
+                if (const int own = vertex[idx(triangles(t, k))]; own >= 0) result.push_back(own);
+        std::sort(result.begin(), result.end());
+        result.erase(std::unique(result.begin(), result.end()), result.end());
+        return result;
+    }
+    std::vector<long> counted(const Pairs& pairs) const {
+        std::vector<long> result(count, 0);
+        for (const auto& pair : pairs)
+            for (const int own : at(pair)) ++result[idx(own)];
+        return result;
+    }
+};
+
+// The vertices of the pairs that have come to parts with more pairs than before go back; says whether any did.
+bool take_back(const PartOf& parts, const Pairs& before, const Pairs& after, const Points& x, Points& now) {
+    const std::vector<long> count_before = parts.counted(before), count = parts.counted(after);
+    bool any = false;
+    for (const auto& pair : after) {
+        if (std::binary_search(before.begin(), before.end(), pair)) continue;
+        for (const int t : pair)
+            for (int k = 0; k < 3; ++k) {
+                const int i = parts.triangles(t, k), own = parts.vertex[idx(i)];
+                if (own < 0 || count[idx(own)] <= count_before[idx(own)] || now.row(i) == x.row(i)) continue;
+                now.row(i) = x.row(i);
+                any = true;
+            }
+    }
+    return any;
+}
+
+// No part cuts more than it did, be it all that cuts or what the shapes do not cut themselves.
+void take_back_cuts(TangleSearch& search, const std::vector<std::vector<int>>& parts, const Points& x, Points& now) {
+    const Triangles& triangles = search.shell.triangles;
+    PartOf part{triangles, std::vector<int>(idx(x.rows()), -1), parts.size()};
     for (std::size_t k = 0; k < parts.size(); ++k)
-        for (const int i : parts[k]) part[idx(i)] = static_cast<int>(k);
-    const std::vector<char> asked = touched(shell, x, now);
-    const auto counted = [&](const std::vector<std::array<int, 2>>& cuts) {
-        std::vector<long> count(parts.size(), 0);
-        for (const auto& pair : cuts)
-            for (const int t : pair)
-                for (int k = 0; k < 3; ++k)
-                    if (const int own = part[idx(triangles(t, k))]; own >= 0) ++count[idx(own)];
-        return count;
-    };
-    const auto before = self_intersections(x, triangles, asked);
-    const std::vector<long> count_before = counted(before);
+        for (const int i : parts[k]) part.vertex[idx(i)] = static_cast<int>(k);
+    const std::vector<char> asked = touched(search.shell, x, now);
+    const Pairs before = all_cuts(x, triangles, asked), new_before = without_known(search, x, before);
     for (bool back = true; back;) {
-        back = false;
-        const auto after = self_intersections(now, triangles, asked);
-        const std::vector<long> count = counted(after);
-        for (const auto& pair : after) {
-            if (std::binary_search(before.begin(), before.end(), pair)) continue;
-            for (const int t : pair)
-                for (int k = 0; k < 3; ++k) {
-                    const int i = triangles(t, k), own = part[idx(i)];
-                    if (own < 0 || count[idx(own)] <= count_before[idx(own)] || now.row(i) == x.row(i)) continue;
-                    now.row(i) = x.row(i);
-                    back = true;
-                }
-        }
+        const Pairs after = all_cuts(now, triangles, asked);
+        back = take_back(part, before, after, x, now);
+        if (!back) back = take_back(part, new_before, without_known(search, now, after), x, now);
     }
 }
 
@@ -186,25 +245,28 @@ Nudged nudge(TangleSearch& search, const Points& positions, const Tangles& befor
              bool leave, const std::vector<int>& places) {
     const Shell& shell = search.shell;
     FacingWatch watch(shell.triangles, search.target, EdgeSides::both, at_first_corners(shell.triangles, places));
-    std::vector<int> flips = watch.into(positions);
-    if (flips.empty()) return {positions, before};
-    const Ground ground = ground_of(shell, search.target, pins, positions, flips, leave);
+    Tangles faults{watch.into(positions), before.cuts};
+    const Rounds rounds = faults.count() > few_faults ? for_many : for_few;
+    if (!rounds.cuts) faults.cuts.clear();
+    if (faults.count() == 0) return {positions, before};
+    const Ground ground = ground_of(shell, search.target, pins, positions, faults, leave);
     Points best = positions, x = positions;
-    std::size_t fewest = flips.size();
-    for (int round = 0, idle = 0; round < most_rounds && idle < patient_rounds && !flips.empty(); ++round, ++idle) {
+    std::size_t fewest = faults.count();
+    for (int round = 0, idle = 0; round < rounds.most && idle < rounds.patient && faults.count() > 0; ++round, ++idle) {
         Points now = x;
-        const std::vector<std::vector<int>> parts = parts_around(shell, flips);
+        const std::vector<std::vector<int>> parts = parts_around(shell, faulty(faults));
         parallel_for(
             std::ssize(parts),
             [&](std::ptrdiff_t k) {
-                for (const int vertex : parts[idx(k)]) to_best_place(ground, now, vertex);
+                for (const int vertex : parts[idx(k)]) to_best_place(ground, now, vertex, rounds.wide && idle % 2 == 1);
             },
             1);
-        take_back_cuts(shell, parts, x, now);
+        take_back_cuts(search, parts, x, now);
+        faults.flips = watch.into(now);
+        if (rounds.cuts) faults.cuts = new_cuts(search, now, faults.cuts, touched(shell, x, now));
         x = std::move(now);
-        flips = watch.into(x);
-        if (flips.size() >= fewest) continue;
-        fewest = flips.size();
+        if (faults.count() >= fewest) continue;
+        fewest = faults.count();
         idle = -1;
         best = x;
     }

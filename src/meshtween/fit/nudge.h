@@ -1,4 +1,4 @@
-// The last triangles that look into the target, turned by small moves of the vertices around them.
+// The last triangles that look into the target or cut another, mended by small moves of the vertices around them.
 #pragma once
 
 #include "meshtween/core/mesh.h"
@@ -14,12 +14,13 @@ struct Nudged {
     Tangles left;
 };
 
-// Of the triangles that look into the target (facing_into), the corners and their neighbours go, one after another, by
-// less than half of their shortest edge, to where the least is wanting around them: the detours to places that look the
-// same way, and the distances. They stay on the target, or, with `leave`, within a fifth of an edge. Rounds go on while
-// fewer triangles are left. No triangle grows much thinner, no pin comes to lie further off, and no part of the mesh
-// cuts more than it did. `before` are the tangles of the positions; `places`, a triangle of the target that is probably
-// near for each vertex, make it faster.
+// Around the triangles that look into the target (facing_into) or cut another (before.cuts), the corners and their
+// neighbours go, one after another, by less than an edge, to where the least is wanting around them: the detours to
+// places that look the same way, the lengths of cuts, and the distances. They stay on the target, or, with `leave`,
+// within a fifth of an edge. Rounds go on while fewer faults are left. No triangle grows much thinner, no pin comes to
+// lie further off, and no part of the mesh cuts more than it did. `before` are the tangles of the positions; `places`,
+// a triangle of the target that is probably near for each vertex, make it faster. Where there are hundreds of faults,
+// only what looks into the target is nudged.
 Nudged nudge(TangleSearch& search, const Points& positions, const Tangles& before, std::span<const Pin> pins,
              bool leave = false, const std::vector<int>& places = {});
 

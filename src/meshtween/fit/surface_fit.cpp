@@ -294,7 +294,7 @@ Landed land(TangleSearch& search, std::span<const Pin> pins, const Points& x, bo
     if (!on_surface && !landed.cancelled) {
         const Points up =
             without_new_cuts(search, landed.positions, nudged.left,
-                             lifted(landed.positions, shell.triangles, shell.topology, search.target), landed.places);
+                             lifted(landed.positions, shell.triangles, shell.topology, search.target));
         nudged = nudge(search, up, nudged.left, pins, true, landed.places);
         landed.lift = nudged.positions - landed.positions;
     }

@@ -9,6 +9,8 @@
 namespace meshtween {
 namespace {
 
+constexpr double least_gap = 1e-7; // diagonals, between sheets: about what a float rounds off
+
 using Pairs = std::vector<std::array<int, 2>>;
 
 std::size_t idx(std::ptrdiff_t i) {
@@ -17,7 +19,7 @@ std::size_t idx(std::ptrdiff_t i) {
 
 std::vector<char> cut_places(const FitTarget& target) {
     std::vector<char> corner(idx(target.positions.rows()), 0), flag(idx(target.triangles.rows()), 0);
-    for (const auto& pair : self_intersections(target.positions, target.triangles))
+    for (const auto& pair : all_cuts(target.positions, target.triangles))
         for (const int t : pair)
             for (int k = 0; k < 3; ++k) corner[idx(target.triangles(t, k))] = 1;
     for (Eigen::Index t = 0; t < target.triangles.rows(); ++t)
@@ -27,8 +29,7 @@ std::vector<char> cut_places(const FitTarget& target) {
 
 const KnownCuts& known(TangleSearch& search) {
     if (!search.known)
-        search.known =
-            KnownCuts{self_intersections(search.shell.rest, search.shell.triangles), cut_places(search.target)};
+        search.known = KnownCuts{all_cuts(search.shell.rest, search.shell.triangles), cut_places(search.target)};
     return *search.known;
 }
 
@@ -38,6 +39,16 @@ bool at_cut(TangleSearch& search, const Points& positions, int t) {
     const Point centre =
         (positions.row(triangles(t, 0)) + positions.row(triangles(t, 1)) + positions.row(triangles(t, 2))) / 3;
     return known(search).target[idx(search.target.index.closest(centre).where.triangle)] != 0;
+}
+
+} // namespace
+
+Pairs all_cuts(const Points& positions, const Triangles& triangles) {
+    return self_intersections(positions, triangles, least_gap);
+}
+
+Pairs all_cuts(const Points& positions, const Triangles& triangles, const std::vector<char>& chosen) {
+    return self_intersections(positions, triangles, chosen, least_gap);
 }
 
 Pairs without_known(TangleSearch& search, const Points& positions, const Pairs& cuts) {
@@ -51,14 +62,12 @@ Pairs without_known(TangleSearch& search, const Points& positions, const Pairs& 
     return fresh;
 }
 
-} // namespace
-
 Pairs new_cuts(TangleSearch& search, const Points& positions) {
-    return without_known(search, positions, self_intersections(positions, search.shell.triangles));
+    return without_known(search, positions, all_cuts(positions, search.shell.triangles));
 }
 
 Pairs new_cuts(TangleSearch& search, const Points& positions, const std::vector<char>& chosen) {
-    return without_known(search, positions, self_intersections(positions, search.shell.triangles, chosen));
+    return without_known(search, positions, all_cuts(positions, search.shell.triangles, chosen));
 }
 
 Tangles tangles(TangleSearch& search, const Points& positions) {
@@ -71,38 +80,35 @@ Tangles tangles(TangleSearch& search, const Points& positions, std::vector<int> 
     return result;
 }
 
+Pairs new_cuts(TangleSearch& search, const Points& positions, const Pairs& before, const std::vector<char>& moved) {
+    Pairs result = new_cuts(search, positions, moved);
+    std::copy_if(before.begin(), before.end(), std::back_inserter(result),
+                 [&](const auto& pair) { return !moved[idx(pair[0])] && !moved[idx(pair[1])]; });
+    std::sort(result.begin(), result.end());
+    return result;
+}
+
 Tangles tangles(TangleSearch& search, const Points& positions, const Tangles& before, const std::vector<char>& moved) {
     std::vector<int> numbers;
     for (std::size_t t = 0; t < moved.size(); ++t)
         if (moved[t]) numbers.push_back(static_cast<int>(t));
     Tangles fresh{flipped_triangles(positions, search.shell.triangles(numbers, Eigen::all), search.target),
-                  new_cuts(search, positions, moved)};
+                  new_cuts(search, positions, before.cuts, moved)};
     for (int& t : fresh.flips) t = numbers[idx(t)];
     std::erase_if(fresh.flips, [&](int t) { return at_cut(search, positions, t); });
     std::copy_if(before.flips.begin(), before.flips.end(), std::back_inserter(fresh.flips),
                  [&](int t) { return !moved[idx(t)]; });
-    std::copy_if(before.cuts.begin(), before.cuts.end(), std::back_inserter(fresh.cuts),
-                 [&](const auto& pair) { return !moved[idx(pair[0])] && !moved[idx(pair[1])]; });
     std::sort(fresh.flips.begin(), fresh.flips.end());
-    std::sort(fresh.cuts.begin(), fresh.cuts.end());
     return fresh;
 }
 
-Points without_new_cuts(TangleSearch& search, const Points& before, const Tangles& left, const Points& now,
-                        const std::vector<int>& places) {
+Points without_new_cuts(TangleSearch& search, const Points& before, const Tangles& left, const Points& now) {
     if (!search.known) return now;
     const Triangles& triangles = search.shell.triangles;
-    std::vector<char> chosen(idx(triangles.rows()), 0);
-    for (Eigen::Index t = 0; t < triangles.rows(); ++t)
-        for (int k = 0; k < 3; ++k)
-            if (const int place = places[idx(triangles(t, k))]; place >= 0)
-                chosen[idx(t)] |= search.known->target[idx(place)];
-    for (const auto& pair : search.known->source)
-        for (const int t : pair) chosen[idx(t)] = 1;
     Points result = now;
     for (bool back = true; back;) {
         back = false;
-        for (const auto& pair : new_cuts(search, result, chosen)) {
+        for (const auto& pair : new_cuts(search, result)) {
             if (std::binary_search(left.cuts.begin(), left.cuts.end(), pair)) continue;
             for (const int t : pair)
                 for (int k = 0; k < 3; ++k) {

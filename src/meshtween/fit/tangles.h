@@ -24,11 +24,20 @@ struct TangleSearch {
     std::optional<KnownCuts> known;
 };
 
+// Pairs of triangles that cut each other, ascending, or come so near that they may do so in a file of floats.
+std::vector<std::array<int, 2>> all_cuts(const Points& positions, const Triangles& triangles);
+std::vector<std::array<int, 2>> all_cuts(const Points& positions, const Triangles& triangles,
+                                         const std::vector<char>& chosen);
+
 // Pairs of triangles that cut each other, ascending, without those that do so in the source and those that lie where
 // the target does. With `chosen`, a flag a triangle, only pairs with a chosen triangle are looked for.
 std::vector<std::array<int, 2>> new_cuts(TangleSearch& search, const Points& positions);
 std::vector<std::array<int, 2>> new_cuts(TangleSearch& search, const Points& positions,
                                          const std::vector<char>& chosen);
+
+// Of those pairs, which lie at `positions`, the ones that count.
+std::vector<std::array<int, 2>> without_known(TangleSearch& search, const Points& positions,
+                                              const std::vector<std::array<int, 2>>& cuts);
 
 struct Tangles {
     std::vector<int> flips;               // triangles that look into the target, ascending, without those at its cuts
@@ -39,14 +48,14 @@ Tangles tangles(TangleSearch& search, const Points& positions);
 // Where the triangles that look into the target are known already, ascending.
 Tangles tangles(TangleSearch& search, const Points& positions, std::vector<int> flipped);
 
-// The same after the vertices of the `moved` triangles, a flag each, have moved.
+// The same after the vertices of the `moved` triangles, a flag each, have moved; and the cuts alone.
+std::vector<std::array<int, 2>> new_cuts(TangleSearch& search, const Points& positions,
+                                         const std::vector<std::array<int, 2>>& before, const std::vector<char>& moved);
 Tangles tangles(TangleSearch& search, const Points& positions, const Tangles& before, const std::vector<char>& moved);
 
-// `now`, but the vertices of new cuts that were none `before` stay as they were. After a small move these are looked
-// for beside places where the shapes cut themselves, if that is known: sheets that touch lie there. `places`: the
-// target's triangle at each vertex, or -1.
-Points without_new_cuts(TangleSearch& search, const Points& before, const Tangles& left, const Points& now,
-                        const std::vector<int>& places);
+// `now`, a small move away, but the vertices of new cuts that were none `before` stay as they were. They are looked for
+// only if the shapes or the fit had cuts before (`known`): elsewhere no sheets lie so near to each other.
+Points without_new_cuts(TangleSearch& search, const Points& before, const Tangles& left, const Points& now);
 
 // A flag a triangle: a vertex of it is elsewhere.
 std::vector<char> touched(const Shell& shell, const Points& from, const Points& to);

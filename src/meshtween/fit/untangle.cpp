@@ -3,6 +3,7 @@
 #include "meshtween/fit/untangle.h"
 
 #include "meshtween/core/parallel.h"
+#include "meshtween/fit/nudge.h"
 #include "meshtween/fit/unfold.h"
 #include "meshtween/geometry/measure.h"
 
@@ -13,9 +14,9 @@ namespace meshtween {
 namespace {
 
 constexpr int tries = 6;         // sizes of a patch
+constexpr int patience = 2;      // sizes that mend nothing, in a row
 constexpr int least_rings = 3;   // around a fault
 constexpr double widening = 1.4; // from one size to the next
-constexpr int sweeps = 3;        // over all sizes, while cuts are left
 constexpr int melted_rings = 16; // around cuts that no size of patch mended
 
 std::size_t idx(std::ptrdiff_t i) {
@@ -171,6 +172,21 @@ void melted(TangleSearch& search, const Cover& cover, std::span<const Pin> pins,
     }
 }
 
+// Patches of growing size, as long as they mend anything.
+void laid_out(TangleSearch& search, const Cover& cover, std::span<const Pin> pins, const Progress& progress,
+              Untangled& result) {
+    double rings = least_rings;
+    for (int k = 0, idle = 0; k < tries && idle < patience && result.left.count() > 0; ++k, rings *= widening) {
+        result.cancelled = !keep_going(progress, static_cast<double>(k) / tries, "untangling");
+        if (result.cancelled) return;
+        Patches patches = patches_around(search.shell, result.left, static_cast<int>(rings));
+        for (FoldedPatch& patch : patches.list) patch.any_sheet = k % 2 == 0; // each way mends what the other does not
+        const std::size_t before = result.left.count();
+        mend(search, patches, cover, pins, result);
+        idle = result.left.count() < before ? 0 : idle + 1;
+    }
+}
+
 // The triangles around edges where the mesh is folded by more than a right angle.
 std::vector<char> folded(const Shell& shell, const Points& x) {
     std::vector<char> corner(shell.area.size(), 0), result(idx(shell.triangles.rows()), 0);
@@ -253,28 +269,23 @@ Untangled untangle(TangleSearch& search, const Points& positions, const Tangles&
     if (result.left.count() == 0) return result;
     Cover cover{target_samples(search.target), {}};
     cover.triangles = answering(search.shell, positions, cover.samples);
-    Untangled unmelted;
+    laid_out(search, cover, pins, part_of(progress, 0, 0.3), result);
+    if (result.left.cuts.empty() || result.cancelled) return result;
+    const Nudged nudged = nudge(search, result.positions, result.left, pins);
+    Untangled unmelted = result;
+    unmelted.positions = nudged.positions;
+    unmelted.left = nudged.left;
+    if (unmelted.left.cuts.empty()) return unmelted;
     const auto in_vain = [&] { return 2 * result.left.cuts.size() > unmelted.left.cuts.size(); };
-    for (int sweep = 0; sweep < sweeps && !result.cancelled; ++sweep) {
-        if (sweep > 0 && result.left.cuts.empty()) break;
-        if (sweep == 1) unmelted = result;
-        if (sweep > 0) {
-            melted(search, cover, pins, static_cast<double>(sweep) / (sweeps - 1), result);
-            if (in_vain()) continue;
-        }
-        double rings = least_rings;
-        for (int k = 0; k < tries && result.left.count() > 0; ++k, rings *= widening) {
-            result.cancelled = !keep_going(progress, (sweep + static_cast<double>(k) / tries) / sweeps, "untangling");
-            if (result.cancelled) break;
-            Patches patches = patches_around(search.shell, result.left, static_cast<int>(rings));
-            for (FoldedPatch& patch : patches.list)
-                patch.any_sheet = k % 2 == 0; // each way mends what the other does not
-            mend(search, patches, cover, pins, result);
-        }
+    for (const double part : {0.5, 1.0}) {
+        if (result.left.cuts.empty() || result.cancelled) break;
+        melted(search, cover, pins, part, result);
+        if (!in_vain())
+            laid_out(search, cover, pins, part_of(progress, 0.3 + 0.7 * (part - 0.5), 0.3 + 0.7 * part), result);
     }
-    if (unmelted.left.cuts.empty() || !in_vain()) return result;
-    unmelted.cancelled = result.cancelled; // melting costs some of the form, and is worth it where it mends
-    return unmelted;
+    if (!in_vain()) return result;
+    unmelted.cancelled = result.cancelled;
+    return unmelted; // melting costs some of the form, and is worth it where it mends
 }
 
 } // namespace meshtween

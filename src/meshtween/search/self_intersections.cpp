@@ -6,6 +6,8 @@
 #include "meshtween/geometry/predicates.h"
 #include "meshtween/search/box_tree.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 
 namespace meshtween {
@@ -13,16 +15,17 @@ namespace {
 
 using Corners = std::array<Point, 3>;
 
-// The plane coordinates, by leaving one axis out, in which a triangle keeps its area, and its turn there.
+// The plane coordinates, by leaving one axis out, in which a triangle keeps most of its area, and its turn there.
 struct Projection {
     int x = 0, y = 1, turn = 0;
 
     explicit Projection(const Corners& t) {
-        for (const auto& [first, second] : {std::pair{0, 1}, std::pair{1, 2}, std::pair{2, 0}}) {
-            x = first;
-            y = second;
+        Eigen::Index steepest = 0;
+        (t[1] - t[0]).cross(t[2] - t[0]).cwiseAbs().maxCoeff(&steepest);
+        for (int k = 1; k <= 3 && turn == 0; ++k) {
+            x = (static_cast<int>(steepest) + k) % 3;
+            y = (x + 1) % 3;
             turn = orient2d(flat(t[0]), flat(t[1]), flat(t[2]));
-            if (turn != 0) return;
         }
     }
     PlanePoint flat(const Point& p) const { return {p[x], p[y]}; }
@@ -52,8 +55,18 @@ bool segment_meets_in_plane(const Point& p, const Point& q, const Corners& t) {
     return inside;
 }
 
-bool segment_meets(const Point& p, const Point& q, const Corners& t) {
-    const int sp = orient3d(t[0], t[1], t[2], p), sq = orient3d(t[0], t[1], t[2], q);
+// The side of the triangle's plane: 0 in it, or as near to it as the gap.
+int side_of(const Corners& plane, const Point& p, double gap) {
+    if (gap > 0) {
+        const Point normal = (plane[1] - plane[0]).cross(plane[2] - plane[0]);
+        const double along = normal.dot(p - plane[0]);
+        if (along * along <= gap * gap * normal.squaredNorm()) return 0;
+    }
+    return orient3d(plane[0], plane[1], plane[2], p);
+}
+
+bool segment_meets(const Point& p, const Point& q, const Corners& t, double gap) {
+    const int sp = side_of(t, p, gap), sq = side_of(t, q, gap);
     if (sp * sq > 0) return false;
     if (sp == 0 && sq == 0) return segment_meets_in_plane(p, q, t);
     const int first = orient3d(p, q, t[0], t[1]), second = orient3d(p, q, t[1], t[2]);
@@ -62,22 +75,22 @@ bool segment_meets(const Point& p, const Point& q, const Corners& t) {
     return first * third >= 0 && second * third >= 0;
 }
 
-bool on_one_side(const Corners& plane, const Corners& t) {
-    const int first = orient3d(plane[0], plane[1], plane[2], t[0]);
-    return first != 0 && orient3d(plane[0], plane[1], plane[2], t[1]) == first &&
-           orient3d(plane[0], plane[1], plane[2], t[2]) == first;
+bool on_one_side(const Corners& plane, const Corners& t, double gap) {
+    const int first = side_of(plane, t[0], gap);
+    return first != 0 && side_of(plane, t[1], gap) == first && side_of(plane, t[2], gap) == first;
 }
 
-bool triangles_meet(const Corners& s, const Corners& t) {
-    if (on_one_side(s, t) || on_one_side(t, s)) return false;
+bool triangles_meet(const Corners& s, const Corners& t, double gap) {
+    if (on_one_side(s, t, gap) || on_one_side(t, s, gap)) return false;
     for (std::size_t k = 0; k < 3; ++k)
-        if (segment_meets(s[k], s[(k + 1) % 3], t) || segment_meets(t[k], t[(k + 1) % 3], s)) return true;
+        if (segment_meets(s[k], s[(k + 1) % 3], t, gap) || segment_meets(t[k], t[(k + 1) % 3], s, gap)) return true;
     return false;
 }
 
 struct Surface {
     const Points& positions;
     const Triangles& triangles;
+    double gap = 0;
 
     Corners corners(int t) const {
         return {positions.row(triangles(t, 0)), positions.row(triangles(t, 1)), positions.row(triangles(t, 2))};
@@ -115,11 +128,11 @@ bool Surface::cut(int s, int t) const {
     const Arranged pair = arrange(*this, s, t);
     switch (pair.shared) {
     case 0:
-        return triangles_meet(pair.s, pair.t);
+        return triangles_meet(pair.s, pair.t, gap);
     case 1:
-        return segment_meets(pair.s[1], pair.s[2], pair.t) || segment_meets(pair.t[1], pair.t[2], pair.s);
+        return segment_meets(pair.s[1], pair.s[2], pair.t, gap) || segment_meets(pair.t[1], pair.t[2], pair.s, gap);
     case 2: { // folded flat: in one plane, and the third corners on one side of the edge
-        if (orient3d(pair.s[0], pair.s[1], pair.s[2], pair.t[2]) != 0) return false;
+        if (side_of(pair.s, pair.t[2], gap) != 0) return false;
         const Projection in(pair.s);
         return in.side(pair.s[0], pair.s[1], pair.t[2]) == in.turn;
     }
@@ -259,9 +272,9 @@ Pairs sorted_finds(std::ptrdiff_t count, std::ptrdiff_t grain, const Visit& visi
 
 } // namespace
 
-Pairs self_intersections(const Points& positions, const Triangles& triangles) {
+Pairs self_intersections(const Points& positions, const Triangles& triangles, double gap) {
     if (triangles.rows() == 0) return {};
-    const Surface surface{positions, triangles};
+    const Surface surface{positions, triangles, gap};
     const auto boxes = search::triangle_boxes(positions, triangles, search::frame(positions));
     const Leaves leaves = leaves_over(surface, boxes, std::vector<char>(boxes.size(), 1));
     return sorted_finds(std::ssize(leaves.leaves), 32, [&](std::ptrdiff_t i, Pairs& found) {
@@ -269,9 +282,10 @@ Pairs self_intersections(const Points& positions, const Triangles& triangles) {
     });
 }
 
-Pairs self_intersections(const Points& positions, const Triangles& triangles, const std::vector<char>& chosen) {
+Pairs self_intersections(const Points& positions, const Triangles& triangles, const std::vector<char>& chosen,
+                         double gap) {
     if (std::find(chosen.begin(), chosen.end(), 1) == chosen.end()) return {};
-    const Surface surface{positions, triangles};
+    const Surface surface{positions, triangles, gap};
     const auto boxes = search::triangle_boxes(positions, triangles, search::frame(positions));
     const Leaves leaves = leaves_over(surface, boxes, chosen);
     if (leaves.leaves.empty()) return {};
