@@ -22,6 +22,7 @@ constexpr std::array small_steps{0.1, 0.2, 0.4}; // of its shortest edge
 constexpr std::array wide_steps{0.2, 0.4, 0.8};  // of its mean edge
 constexpr double to_neighbour = 0.7;             // of the way there, on wide rounds
 constexpr int directions = 8;                    // along the target
+constexpr double golden_angle = 2.399963;        // by which they turn from round to round
 // Above and below the target, in mean edges around a vertex, where it may leave it: a flat triangle whose corners lie
 // on both sides of a valley or a thin sheet comes off the wrong wall so.
 constexpr std::array heights{0.0, 0.1, -0.1, 0.2, -0.2};
@@ -36,7 +37,7 @@ struct Rounds {
     bool wide, cuts;
 };
 constexpr std::size_t few_faults = 300;
-constexpr Rounds for_few{40, 6, true, true}, for_many{10, 3, false, false};
+constexpr Rounds for_few{100, 12, true, true}, for_many{10, 3, false, false};
 
 std::size_t idx(std::ptrdiff_t i) {
     return static_cast<std::size_t>(i);
@@ -74,45 +75,71 @@ Ground ground_of(const Shell& shell, const FitTarget& target, std::span<const Pi
     return ground;
 }
 
-// The mesh around a vertex.
-struct Around {
-    double cost = 0;
-    double markers = 0; // their squared distances from their places
-    double least_area = std::numeric_limits<double>::infinity();
+// What a vertex's place is judged by.
+struct Fan {
+    std::vector<int> triangles; // its own, the worst first
+    std::vector<int> sheets;    // that they could cut
+    double least_area = 0;      // of its own at first, doubled, as is that of a candidate
+    double markers = 0;         // their squared distances from their places
 };
 
-// Of a vertex at that squared distance from the target; not past `most`, of the cost. `sheets` are the triangles that
-// its own could cut.
-Around around(const Ground& ground, const Points& x, Eigen::Index vertex, double squared_distance,
-              const std::vector<int>& sheets, double most = std::numeric_limits<double>::infinity()) {
-    const Triangles& triangles = ground.shell.triangles;
-    const double per_square = by_distance / (ground.unit * ground.unit);
-    Around result;
-    result.cost = per_square * squared_distance;
+double markers_off(const Ground& ground, const Points& x, Eigen::Index vertex) {
+    double sum = 0;
     for (const int k : ground.pins_at[idx(vertex)]) {
         const Pin& pin = ground.pins[idx(k)];
-        result.markers += (position(x, triangles, pin.where) - pin.target).squaredNorm();
+        sum += (position(x, ground.shell.triangles, pin.where) - pin.target).squaredNorm();
     }
+    return sum;
+}
+
+double smallest_area(const Triangles& triangles, const Points& x, const std::vector<int>& fan) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const int t : fan) least = std::min(least, double_area_normal(x, triangles, t).norm());
+    return least;
+}
+
+// What is wanting at a triangle; `place` is where the target answers, near the next answer.
+double wanting(const Ground& ground, const Points& x, int t, const std::vector<int>& sheets, int& place) {
+    const Triangles& triangles = ground.shell.triangles;
+    double cost = 0;
     for (const int s : sheets)
-        for (const int t : ground.shell.topology.vertex_triangles[vertex])
-            if (const auto length = cut_length(x, triangles, s, t)) result.cost += as_such + *length / ground.unit;
-    if (result.cost > most) return result;
-    int last = -1; // where the last answer lay is near the next
+        if (const auto length = cut_length(x, triangles, s, t)) cost += as_such + *length / ground.unit;
+    const Point centre = (x.row(triangles(t, 0)) + x.row(triangles(t, 1)) + x.row(triangles(t, 2))) / 3;
+    const Facing there = facing(centre, double_area_normal(x, triangles, t), ground.target, place);
+    place = there.place;
+    if (there.into()) cost += as_such + there.detour / ground.unit - by_cosine * there.cosine;
+    return cost + by_distance * there.squared_distance / (ground.unit * ground.unit);
+}
+
+// At a vertex that far from the target; not past `most`.
+double cost_around(const Ground& ground, const Points& x, const Fan& fan, double distance, double most) {
+    double cost = by_distance * distance * distance / (ground.unit * ground.unit);
+    int place = -1;
+    for (std::size_t k = 0; k < fan.triangles.size() && cost < most; ++k)
+        cost += wanting(ground, x, fan.triangles[k], fan.sheets, place);
+    return cost;
+}
+
+// The fan as it is, with what is wanting at its triangles.
+Fan fan_of(const Ground& ground, const Points& x, Eigen::Index vertex, double reach, double& cost) {
+    Fan fan;
+    fan.sheets = near_vertex(ground.shell, x, vertex, ground.beside_cuts, reach);
+    std::vector<std::pair<double, int>> ranked;
+    int place = -1;
+    cost = 0;
     for (const int t : ground.shell.topology.vertex_triangles[vertex]) {
-        const Point centre = (x.row(triangles(t, 0)) + x.row(triangles(t, 1)) + x.row(triangles(t, 2))) / 3;
-        const Point area = double_area_normal(x, triangles, t);
-        const Facing there = facing(centre, area, ground.target, last);
-        last = there.place;
-        if (there.into()) result.cost += as_such + there.detour / ground.unit - by_cosine * there.cosine;
-        result.cost += per_square * there.squared_distance;
-        if (result.cost > most) break;
-        result.least_area = std::min(result.least_area, area.norm());
+        ranked.emplace_back(-wanting(ground, x, t, fan.sheets, place), t);
+        cost -= ranked.back().first;
     }
-    return result;
+    std::sort(ranked.begin(), ranked.end());
+    for (const auto& [rank, t] : ranked) fan.triangles.push_back(t);
+    fan.least_area = smallest_area(ground.shell.triangles, x, fan.triangles);
+    fan.markers = markers_off(ground, x, vertex);
+    return fan;
 }
 
 // Moves the vertex where it does best, of some places around its own.
-void to_best_place(const Ground& ground, Points& x, Eigen::Index vertex, bool wide) {
+void to_best_place(const Ground& ground, Points& x, Eigen::Index vertex, bool wide, double turn) {
     const auto neighbours = ground.shell.topology.neighbours[vertex];
     const Point start = x.row(vertex);
     Point middle(0, 0, 0);
@@ -123,20 +150,22 @@ void to_best_place(const Ground& ground, Points& x, Eigen::Index vertex, bool wi
         mean += length / static_cast<double>(neighbours.size());
         middle += x.row(j) / static_cast<double>(neighbours.size());
     }
+    double best = 0;
+    const Fan fan = fan_of(ground, x, vertex, mean * wide_steps.back(), best); // no step is longer
+    if (best < as_such) return;                                                // nothing is wanting there
     const ClosestPoint here = ground.target.index.closest(start);
-    const std::vector<int> sheets =
-        near_vertex(ground.shell, x, vertex, ground.beside_cuts, mean * wide_steps.back()); // no step is longer
-    const Around before = around(ground, x, vertex, here.squared_distance, sheets);
-    double best = before.cost;
+    best += by_distance * here.squared_distance / (ground.unit * ground.unit);
     Point place = start;
     const auto try_over = [&](const ClosestPoint& there) {
         const Point up = mean * normal_at(ground.target, there.where);
         for (const double height : std::span(heights).first(ground.leave ? heights.size() : 1)) {
             x.row(vertex) = there.position + height * up;
-            const Around now = around(ground, x, vertex, height * height * mean * mean, sheets, best);
-            if (!(now.cost < best) || now.least_area < least_area * before.least_area || now.markers > before.markers)
+            if (smallest_area(ground.shell.triangles, x, fan.triangles) < least_area * fan.least_area ||
+                markers_off(ground, x, vertex) > fan.markers)
                 continue;
-            best = now.cost;
+            const double cost = cost_around(ground, x, fan, height * mean, best);
+            if (!(cost < best)) continue;
+            best = cost;
             place = x.row(vertex);
         }
     };
@@ -145,7 +174,7 @@ void to_best_place(const Ground& ground, Points& x, Eigen::Index vertex, bool wi
     const Point u = normal.unitOrthogonal(), v = normal.cross(u);
     for (const double step : wide ? wide_steps : small_steps)
         for (int k = 0; k < directions; ++k) {
-            const double angle = 2 * EIGEN_PI * k / directions;
+            const double angle = turn + 2 * EIGEN_PI * k / directions;
             const Point way = std::cos(angle) * u + std::sin(angle) * v;
             const Point there = start + step * (wide ? mean : shortest) * way;
             try_over(ground.target.index.closest(there, here.where.triangle));
@@ -258,7 +287,8 @@ Nudged nudge(TangleSearch& search, const Points& positions, const Tangles& befor
         parallel_for(
             std::ssize(parts),
             [&](std::ptrdiff_t k) {
-                for (const int vertex : parts[idx(k)]) to_best_place(ground, now, vertex, rounds.wide && idle % 2 == 1);
+                for (const int vertex : parts[idx(k)])
+                    to_best_place(ground, now, vertex, rounds.wide && idle % 2 == 1, round * golden_angle);
             },
             1);
         take_back_cuts(search, parts, x, now);

@@ -292,9 +292,8 @@ Landed land(TangleSearch& search, std::span<const Pin> pins, const Points& x, bo
                   {},
                   untangled.cancelled || !keep_going(progress, 0.5, "lifting")};
     if (!on_surface && !landed.cancelled) {
-        const Points up =
-            without_new_cuts(search, landed.positions, nudged.left,
-                             lifted(landed.positions, shell.triangles, shell.topology, search.target));
+        const Points up = without_new_cuts(search, landed.positions, nudged.left,
+                                           lifted(landed.positions, shell.triangles, shell.topology, search.target));
         nudged = nudge(search, up, nudged.left, pins, true, landed.places);
         landed.lift = nudged.positions - landed.positions;
     }
