@@ -48,15 +48,14 @@ Points triangle_normals(const Points& positions, const Triangles& triangles) {
 }
 
 Points vertex_normals(const Points& positions, const Triangles& triangles) {
-    const Points faces = triangle_normals(positions, triangles);
-    Points angles(triangles.rows(), 3);
+    Points faces(triangles.rows(), 3), angles(triangles.rows(), 3);
     parallel_for(triangles.rows(), [&](Eigen::Index t) {
-        for (int k = 0; k < 3; ++k) {
-            const Point corner = positions.row(triangles(t, k));
-            const Point e = positions.row(triangles(t, (k + 1) % 3)) - corner;
-            const Point f = positions.row(triangles(t, (k + 2) % 3)) - corner;
-            angles(t, k) = std::atan2(e.cross(f).norm(), e.dot(f));
-        }
+        const Point a = positions.row(triangles(t, 0)), b = positions.row(triangles(t, 1)),
+                    c = positions.row(triangles(t, 2)), normal = (b - a).cross(c - a);
+        const double length = normal.norm();
+        const double at_a = std::atan2(length, (b - a).dot(c - a)), at_b = std::atan2(length, (c - b).dot(a - b));
+        angles.row(t) << at_a, at_b, EIGEN_PI - at_a - at_b;
+        faces.row(t) = length > 0 ? Point(normal / length) : Point(0, 0, 0);
     });
     Points normals = Points::Zero(positions.rows(), 3);
     for (Eigen::Index t = 0; t < triangles.rows(); ++t)
