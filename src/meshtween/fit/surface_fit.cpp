@@ -30,9 +30,14 @@
 namespace meshtween {
 namespace {
 
-constexpr double first_length = 0.2, last_length = 0.0015; // of the shell: features that it follows, in diagonals
-constexpr double first_slide = 0.01, last_slide = 1e-4;    // coarse levels keep still; the last round lets go
-constexpr int rounds_a_level = 8;
+// What falls in equal ratios from the first round to the last.
+struct Falling {
+    double first, last;
+    double at(double done) const { return first * std::pow(last / first, done); }
+};
+constexpr Falling falling_length{0.2, 0.0015}; // of the shell: features that it follows, in diagonals
+constexpr Falling falling_slide{0.01, 1e-4};   // coarse levels keep still; the last round lets go
+constexpr int rounds_a_level = 8, finest_rounds = 7;
 // Of pulls from the target's side on the coarsest level, beside 1 on the others. Which part goes to which is decided
 // there, where the mesh is stiff, and covering tells it better than closeness: a leg that clings to the belly stays
 // there.
@@ -42,7 +47,7 @@ constexpr double coarsest_back = 100;
 // and where triangles are as large as in a mesh of one level, their corners would end far off. What lies between
 // corners moves slowly, which takes the solver longer.
 constexpr double centres_share = 0.75;
-constexpr int whole_rounds = 4, whole_cycles = 20;
+constexpr int whole_rounds = 3, whole_cycles = 20;
 constexpr double calm_turn = 0.35;          // radians: between two faces or standing bodies all turn less
 constexpr int articulation_rounds = 40;     // with the markers alone, on the coarsest level
 constexpr double articulation_still = 1e-4; // stop where no vertex moves further, in diagonals
@@ -229,12 +234,7 @@ struct Closed {
 Closed close_in(const ShellLevels& shells, TangleSearch& search, Closed posed, double marker_weight,
                 const std::function<void(const Points&)>& watch, const Progress& progress) {
     const std::size_t levels = shells.levels.size();
-    const int rounds = rounds_a_level * static_cast<int>(levels);
-    const double rate = std::pow(last_length / first_length, 1.0 / (rounds - 1));
-    const double slide_rate = std::pow(last_slide / first_slide, 1.0 / (rounds - 1));
     RelaxWeights weights;
-    weights.length = first_length;
-    weights.slide = first_slide;
     weights.membrane = 1e-3;
     weights.calm_turn = calm_turn;
     weights.pins *= marker_weight;
@@ -245,8 +245,13 @@ Closed close_in(const ShellLevels& shells, TangleSearch& search, Closed posed, d
     for (std::size_t k = levels; k-- > 0;) {
         RelaxMemory memory;
         weights.back = k > 0 && k + 1 == levels ? coarsest_back : 1;
-        for (int round = 0; round < rounds_a_level; ++round, weights.length *= rate, weights.slide *= slide_rate) {
-            const bool whole = k == 0 && levels > 1 && round >= rounds_a_level - whole_rounds;
+        const int rounds = k == 0 ? finest_rounds : rounds_a_level;
+        const double step = k == 0 ? (rounds_a_level - 1.0) / (rounds - 1) : 1;
+        for (int round = 0; round < rounds; ++round) {
+            const double fallen = (static_cast<double>(levels - 1 - k) * rounds_a_level + round * step) /
+                                  (static_cast<double>(levels) * rounds_a_level - 1);
+            weights.length = falling_length.at(fallen), weights.slide = falling_slide.at(fallen);
+            const bool whole = k == 0 && levels > 1 && round >= rounds - whole_rounds;
             weights.centres = whole ? centres_share * (1 - weights.membrane) : 0;
             weights.round = result.rounds;
             weights.cycles = weights.centres > 0 ? whole_cycles : RelaxWeights().cycles;
