@@ -1,5 +1,6 @@
 #include "meshtween/fit/nudge.h"
 
+#include "meshtween/core/parallel.h"
 #include "meshtween/fit/settle.h"
 #include "meshtween/geometry/shapes.h"
 
@@ -75,7 +76,11 @@ TEST(Nudge, TakesApartWhatCutsThoughNothingIsTurnedOver) {
     const Tangles before = tangles(search, x);
     ASSERT_TRUE(before.flips.empty());
     ASSERT_FALSE(before.cuts.empty());
+    set_threads(1);
     const Nudged done = nudge(search, x, before, {});
+    set_threads(3);
+    EXPECT_EQ(nudge(search, x, before, {}).positions, done.positions) << "both sides move, in any company";
+    set_threads(0);
     EXPECT_EQ(done.left.count(), 0U);
     EXPECT_EQ(tangles(search, done.positions).count(), 0U);
 }

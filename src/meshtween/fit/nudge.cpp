@@ -58,7 +58,7 @@ struct Ground {
     std::span<const Pin> pins;
     std::vector<std::vector<int>> pins_at; // a vertex: those in the triangles around it
     double unit = 0;                       // a typical edge
-    std::vector<int> beside_cuts;          // triangles
+    std::vector<int> beside_cuts;          // triangles: what could cut each other
     bool leave = false;                    // vertices may leave the target
 };
 
@@ -79,7 +79,7 @@ Ground ground_of(const Shell& shell, const FitTarget& target, std::span<const Pi
 struct Fan {
     std::vector<int> triangles; // its own, the worst first
     std::vector<int> sheets;    // that they could cut
-    double least_area = 0;      // of its own at first, doubled, as is that of a candidate
+    double least_area = 0;      // doubled, of its smallest triangle
     double markers = 0;         // their squared distances from their places
 };
 
@@ -121,9 +121,10 @@ double cost_around(const Ground& ground, const Points& x, const Fan& fan, double
 }
 
 // The fan as it is, with what is wanting at its triangles.
-Fan fan_of(const Ground& ground, const Points& x, Eigen::Index vertex, double reach, double& cost) {
+Fan fan_of(const Ground& ground, const Points& x, Eigen::Index vertex, const std::vector<int>& sheets, double reach,
+           double& cost) {
     Fan fan;
-    fan.sheets = near_vertex(ground.shell, x, vertex, ground.beside_cuts, reach);
+    fan.sheets = near_vertex(ground.shell, x, vertex, sheets, reach);
     std::vector<std::pair<double, int>> ranked;
     int place = -1;
     cost = 0;
@@ -139,7 +140,8 @@ Fan fan_of(const Ground& ground, const Points& x, Eigen::Index vertex, double re
 }
 
 // Moves the vertex where it does best, of some places around its own.
-void to_best_place(const Ground& ground, Points& x, Eigen::Index vertex, bool wide, double turn) {
+void to_best_place(const Ground& ground, const std::vector<int>& sheets, Points& x, Eigen::Index vertex, bool wide,
+                   double turn) {
     const auto neighbours = ground.shell.topology.neighbours[vertex];
     const Point start = x.row(vertex);
     Point middle(0, 0, 0);
@@ -151,8 +153,8 @@ void to_best_place(const Ground& ground, Points& x, Eigen::Index vertex, bool wi
         middle += x.row(j) / static_cast<double>(neighbours.size());
     }
     double best = 0;
-    const Fan fan = fan_of(ground, x, vertex, mean * wide_steps.back(), best); // no step is longer
-    if (best < as_such) return;                                                // nothing is wanting there
+    const Fan fan = fan_of(ground, x, vertex, sheets, mean, best); // steps and heights do not lead further off
+    if (best < as_such) return;                                    // nothing is wanting there
     const ClosestPoint here = ground.target.index.closest(start);
     best += by_distance * here.squared_distance / (ground.unit * ground.unit);
     Point place = start;
@@ -209,6 +211,20 @@ std::vector<std::vector<int>> parts_around(const Shell& shell, const std::vector
         parts.push_back(std::move(part));
     }
     return parts;
+}
+
+// Parts that can be worked on at once: what could cut each other comes first, in one group.
+std::vector<std::vector<int>> grouped(const Ground& ground, const std::vector<std::vector<int>>& parts) {
+    std::vector<char> could_cut(idx(ground.shell.rest.rows()), 0);
+    for (const int t : ground.beside_cuts)
+        for (int k = 0; k < 3; ++k) could_cut[idx(ground.shell.triangles(t, k))] = 1;
+    std::vector<std::vector<int>> groups(1);
+    for (const std::vector<int>& part : parts)
+        if (std::ranges::any_of(part, [&](int i) { return could_cut[idx(i)] != 0; }))
+            groups[0].insert(groups[0].end(), part.begin(), part.end());
+        else
+            groups.push_back(part);
+    return groups;
 }
 
 using Pairs = std::vector<std::array<int, 2>>;
@@ -284,11 +300,14 @@ Nudged nudge(TangleSearch& search, const Points& positions, const Tangles& befor
     for (int round = 0, idle = 0; round < rounds.most && idle < rounds.patient && faults.count() > 0; ++round, ++idle) {
         Points now = x;
         const std::vector<std::vector<int>> parts = parts_around(shell, faulty(faults));
+        const std::vector<std::vector<int>> groups = grouped(ground, parts);
         parallel_for(
-            std::ssize(parts),
+            std::ssize(groups),
             [&](std::ptrdiff_t k) {
-                for (const int vertex : parts[idx(k)])
-                    to_best_place(ground, now, vertex, rounds.wide && idle % 2 == 1, round * golden_angle);
+                const std::vector<int> none;
+                for (const int vertex : groups[idx(k)])
+                    to_best_place(ground, k == 0 ? ground.beside_cuts : none, now, vertex, rounds.wide && idle % 2 == 1,
+                                  round * golden_angle);
             },
             1);
         take_back_cuts(search, parts, x, now);

@@ -241,12 +241,15 @@ Closed close_in(const ShellLevels& shells, TangleSearch& search, Closed posed, d
     Closed result = std::move(posed);
     Points& x = result.positions;
     double done = 0, work = 0; // in vertices seen, for the progress
-    for (const Level& level : shells.levels) work += static_cast<double>(level.positions.rows()) * rounds_a_level;
+    const auto rounds_on = [](std::size_t level) { return level == 0 ? finest_rounds : rounds_a_level; };
+    for (std::size_t k = 0; k < levels; ++k)
+        work += static_cast<double>(shells.levels[k].positions.rows()) * rounds_on(k);
     for (std::size_t k = levels; k-- > 0;) {
         RelaxMemory memory;
         weights.back = k > 0 && k + 1 == levels ? coarsest_back : 1;
-        const int rounds = k == 0 ? finest_rounds : rounds_a_level;
-        const double step = k == 0 ? (rounds_a_level - 1.0) / (rounds - 1) : 1;
+        const int rounds = rounds_on(k);
+        const double step =
+            k == 0 ? (rounds_a_level - 1.0) / (rounds - 1) : 1; // the last round is where eight would end
         for (int round = 0; round < rounds; ++round) {
             const double fallen = (static_cast<double>(levels - 1 - k) * rounds_a_level + round * step) /
                                   (static_cast<double>(levels) * rounds_a_level - 1);
