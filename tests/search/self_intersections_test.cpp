@@ -63,6 +63,9 @@ TEST(SelfIntersections, WithAGapWhatAlmostTouchesCounts) {
     Points corner(5, 3); // two faces of a flat sheet with one corner in common
     corner << 0, 0, 0, 4, 0, 0, 0, 4, 0, -4, 0, 1e-9, 0, -4, 1e-9;
     EXPECT_TRUE(self_intersections(corner, Triangles{{0, 1, 2}, {0, 3, 4}}, 1e-7).empty());
+    corner.row(3) << -0.5, 1, 0.9e-7; // the line between them meets the face, far beyond the end that is near its plane
+    corner.row(4) << -0.9, 1, 1.1e-7;
+    EXPECT_TRUE(self_intersections(corner, Triangles{{0, 1, 2}, {0, 3, 4}}, 1e-7).empty());
 }
 
 TEST(SelfIntersections, TrianglesInOnePlane) {

@@ -5,6 +5,7 @@
 #include "meshtween/core/parallel.h"
 #include "meshtween/fit/cut_length.h"
 #include "meshtween/fit/facing.h"
+#include "meshtween/fit/region.h"
 #include "meshtween/geometry/measure.h"
 
 #include <Eigen/Geometry>
@@ -284,16 +285,11 @@ void take_back_cuts(TangleSearch& search, const std::vector<std::vector<int>>& p
     }
 }
 
-} // namespace
-
-Nudged nudge(TangleSearch& search, const Points& positions, const Tangles& before, std::span<const Pin> pins,
-             bool leave, const std::vector<int>& places) {
+// Flips as FacingWatch has them.
+Points nudged_within(TangleSearch& search, const Points& positions, Tangles faults, const Rounds& rounds,
+                     std::span<const Pin> pins, bool leave) {
     const Shell& shell = search.shell;
-    FacingWatch watch(shell.triangles, search.target, EdgeSides::both, at_first_corners(shell.triangles, places));
-    Tangles faults{watch.into(positions), before.cuts};
-    const Rounds rounds = faults.count() > few_faults ? for_many : for_few;
-    if (!rounds.cuts) faults.cuts.clear();
-    if (faults.count() == 0) return {positions, before};
+    FacingWatch watch(shell.triangles, search.target, EdgeSides::both);
     const Ground ground = ground_of(shell, search.target, pins, positions, faults, leave);
     Points best = positions, x = positions;
     std::size_t fewest = faults.count();
@@ -319,6 +315,49 @@ Nudged nudge(TangleSearch& search, const Points& positions, const Tangles& befor
         idle = -1;
         best = x;
     }
+    return best;
+}
+
+// The same for the region's numbers, without what lies outside.
+Pairs within(const Region& region, const Pairs& pairs) {
+    Pairs result;
+    for (const auto& pair : pairs)
+        if (const int s = region.triangle(pair[0]), t = region.triangle(pair[1]); s >= 0 && t >= 0)
+            result.push_back({s, t});
+    return result;
+}
+
+std::vector<Pin> within(const Region& region, std::span<const Pin> pins) {
+    std::vector<Pin> result;
+    for (const Pin& pin : pins)
+        if (const int t = region.triangle(pin.where.triangle); t >= 0) {
+            result.push_back(pin);
+            result.back().where.triangle = t;
+        }
+    return result;
+}
+
+} // namespace
+
+Nudged nudge(TangleSearch& search, const Points& positions, const Tangles& before, std::span<const Pin> pins,
+             bool leave, const std::vector<int>& places) {
+    const Shell& shell = search.shell;
+    Tangles faults{
+        FacingWatch(shell.triangles, search.target, EdgeSides::both, at_first_corners(shell.triangles, places))
+            .into(positions),
+        before.cuts};
+    const Rounds rounds = faults.count() > few_faults ? for_many : for_few;
+    if (!rounds.cuts) faults.cuts.clear();
+    if (faults.count() == 0) return {positions, before};
+    const Region region = region_around(shell, positions, faulty(faults));
+    TangleSearch near{region.shell, search.target, {}};
+    if (search.known) near.known = KnownCuts{within(region, search.known->source), search.known->target};
+    faults.cuts = within(region, faults.cuts);
+    for (int& t : faults.flips) t = region.triangle(t);
+    const Points moved = nudged_within(near, positions(region.vertices, Eigen::all), std::move(faults), rounds,
+                                       within(region, pins), leave);
+    Points best = positions;
+    best(region.vertices, Eigen::all) = moved;
     return {best, tangles(search, best, before, touched(shell, positions, best))};
 }
 

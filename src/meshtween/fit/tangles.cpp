@@ -106,19 +106,17 @@ Points without_new_cuts(TangleSearch& search, const Points& before, const Tangle
     if (!search.known) return now;
     const Triangles& triangles = search.shell.triangles;
     Points result = now;
-    for (bool back = true; back;) {
-        back = false;
-        for (const auto& pair : new_cuts(search, result)) {
+    Pairs cuts = new_cuts(search, result);
+    while (true) {
+        const Points last = result;
+        for (const auto& pair : cuts) {
             if (std::binary_search(left.cuts.begin(), left.cuts.end(), pair)) continue;
             for (const int t : pair)
-                for (int k = 0; k < 3; ++k) {
-                    const int i = triangles(t, k);
-                    back = back || result.row(i) != before.row(i);
-                    result.row(i) = before.row(i);
-                }
+                for (int k = 0; k < 3; ++k) result.row(triangles(t, k)) = before.row(triangles(t, k));
         }
+        if (result == last) return result;
+        cuts = new_cuts(search, result, touched(search.shell, last, result)); // what has not moved cuts no more
     }
-    return result;
 }
 
 std::vector<char> touched(const Shell& shell, const Points& from, const Points& to) {

@@ -45,14 +45,17 @@ bool segments_meet(const Projection& in, const Point& a, const Point& b, const P
            (sb == 0 && between(in.flat(p), in.flat(q), in.flat(b)));
 }
 
+bool lies_in(const Projection& in, const Corners& t, const Point& p) { // for p in the triangle's plane
+    bool inside = true;
+    for (std::size_t k = 0; k < 3; ++k) inside = inside && in.side(t[k], t[(k + 1) % 3], p) * in.turn >= 0;
+    return inside;
+}
+
 bool segment_meets_in_plane(const Point& p, const Point& q, const Corners& t) {
     const Projection in(t);
-    bool inside = true;
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 3; ++k)
         if (segments_meet(in, p, q, t[k], t[(k + 1) % 3])) return true;
-        inside = inside && in.side(t[k], t[(k + 1) % 3], p) * in.turn >= 0;
-    }
-    return inside;
+    return lies_in(in, t, p);
 }
 
 // The side of the triangle's plane: 0 in it, or as near to it as the gap.
@@ -69,6 +72,7 @@ bool segment_meets(const Point& p, const Point& q, const Corners& t, double gap)
     const int sp = side_of(t, p, gap), sq = side_of(t, q, gap);
     if (sp * sq > 0) return false;
     if (sp == 0 && sq == 0) return segment_meets_in_plane(p, q, t);
+    if (sp == 0 || sq == 0) return lies_in(Projection(t), t, sp == 0 ? p : q);
     const int first = orient3d(p, q, t[0], t[1]), second = orient3d(p, q, t[1], t[2]);
     if (first * second < 0) return false;
     const int third = orient3d(p, q, t[2], t[0]);
