@@ -17,7 +17,7 @@ std::size_t idx(std::ptrdiff_t i) {
 
 using Box = Eigen::AlignedBox3d;
 
-// Boxes around the connected parts of what lies within some rings of the triangles.
+// Boxes around the connected parts of what lies within some rings of the triangles, a mean edge wider.
 std::vector<Box> boxes_around(const Shell& shell, const Points& positions, std::span<const int> triangles) {
     std::vector<char> near(idx(shell.rest.rows()), 0);
     std::vector<int> reached;
@@ -37,12 +37,16 @@ std::vector<Box> boxes_around(const Shell& shell, const Points& positions, std::
         near[idx(seed)] = 0;
         std::vector<int> part{seed};
         Box box;
+        double lengths = 0, edges = 0;
         for (std::size_t k = 0; k < part.size(); ++k) {
             box.extend(positions.row(part[k]).transpose());
-            for (const int j : shell.topology.neighbours[part[k]])
+            for (const int j : shell.topology.neighbours[part[k]]) {
+                lengths += (positions.row(j) - positions.row(part[k])).norm(), ++edges;
                 if (near[idx(j)]) near[idx(j)] = 0, part.push_back(j);
+            }
         }
-        boxes.push_back(box);
+        const Eigen::Vector3d edge = Eigen::Vector3d::Constant(edges > 0 ? lengths / edges : 0);
+        boxes.emplace_back(box.min() - edge, box.max() + edge);
     }
     return boxes;
 }
