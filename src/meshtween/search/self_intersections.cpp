@@ -229,7 +229,7 @@ private:
     static constexpr int side = 64;
 
     static std::size_t cell(float x) {
-        return static_cast<std::size_t>(std::clamp(static_cast<int>((x + 1) * (side / 2)), 0, side - 1));
+        return static_cast<std::size_t>(std::clamp(static_cast<int>((x + 1) / 2 * side), 0, side - 1));
     }
     template <typename Visit>
     void each(const search::FloatBox& box, const Visit& visit) {
