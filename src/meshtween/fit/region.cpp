@@ -28,11 +28,10 @@ std::vector<Box> boxes_around(const Shell& shell, const Points& positions, std::
     };
     for (const int t : triangles)
         for (int k = 0; k < 3; ++k) reach(shell.triangles(t, k));
-    for (int ring = 0; ring < rings; ++ring) {
-        const std::vector<int> inner = reached;
-        for (const int i : inner)
-            for (const int j : shell.topology.neighbours[i]) reach(j);
-    }
+    std::size_t next = 0;
+    for (int ring = 0; ring < rings; ++ring)
+        for (const std::size_t end = reached.size(); next < end; ++next)
+            for (const int j : shell.topology.neighbours[reached[next]]) reach(j);
     std::vector<Box> boxes;
     for (const int seed : reached) {
         if (!near[idx(seed)]) continue;
