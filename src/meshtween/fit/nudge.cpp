@@ -1,5 +1,6 @@
-// What is wanting at a triangle that looks into the target is a length, the detour to where it would look along it. It
-// falls little by little, so that vertices which turn no triangle alone do so together.
+// What is wanting is a length: at a triangle that looks into the target the detour to where it would look along it, at
+// a cut how far two triangles reach through each other. It falls little by little, so that vertices which mend nothing
+// alone do so together.
 #include "meshtween/fit/nudge.h"
 
 #include "meshtween/core/parallel.h"
@@ -18,7 +19,7 @@
 namespace meshtween {
 namespace {
 
-// What a vertex tries in turn: small steps, as long as they turn a triangle; after a round in vain wide ones.
+// What a vertex tries in turn: small steps, as long as they mend anything; after a round in vain wide ones.
 constexpr std::array small_steps{0.1, 0.2, 0.4}; // of its shortest edge
 constexpr std::array wide_steps{0.2, 0.4, 0.8};  // of its mean edge
 constexpr double to_neighbour = 0.7;             // of the way there, on wide rounds
