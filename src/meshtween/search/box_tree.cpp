@@ -29,7 +29,7 @@ struct Builder {
 
     int& item(int i) const { return order[static_cast<std::size_t>(i)]; }
     const FloatBox& box(int i) const { return boxes[static_cast<std::size_t>(item(i))]; }
-    static float centre(const FloatBox& box, std::size_t axis) { return 0.5F * (box.low[axis] + box.high[axis]); }
+    static Float4 centre(const FloatBox& box) { return 0.5F * (box.low + box.high); }
 
     // The node for begin..end, and where its items, put in order, are divided; that is `end` for a leaf.
     struct Made {
@@ -64,7 +64,7 @@ struct Bin {
 struct Split {
     float cost = std::numeric_limits<float>::infinity();
     std::size_t axis = 0;
-    int bin = 0; // the first on the right
+    std::size_t bin = 0; // the first on the right
 };
 
 // Where along this axis the two sides' areas times counts are least.
@@ -84,34 +84,38 @@ void best_split(const std::array<Bin, bin_count>& bins, std::size_t axis, Split&
         if (left.count == 0 || right_cost[static_cast<std::size_t>(b)] < 0) continue;
         const float cost =
             left.box.half_area() * static_cast<float>(left.count) + right_cost[static_cast<std::size_t>(b)];
-        if (cost < best.cost) best = {cost, axis, b};
+        if (cost < best.cost) best = {cost, axis, static_cast<std::size_t>(b)};
     }
 }
 
 int Builder::divide(const Work& work, const FloatBox& centres) const {
     const int half = work.begin + (work.end - work.begin) / 2;
-    std::array<float, 3> to_bin{};
-    for (std::size_t k = 0; k < 3; ++k) {
+    Float4 to_bin{};
+    for (int k = 0; k < 3; ++k) {
         const float size = centres.high[k] - centres.low[k];
         to_bin[k] = size > 0 ? bin_count * (1 - 1e-6F) / size : 0;
     }
-    const auto bin_of = [&](const FloatBox& b, std::size_t k) {
-        return std::clamp(static_cast<int>((centre(b, k) - centres.low[k]) * to_bin[k]), 0, bin_count - 1);
+    const auto bins_of = [&](const FloatBox& b) { return (centre(b) - centres.low) * to_bin; };
+    const auto bin = [](Float4 place, std::size_t k) {
+        return static_cast<std::size_t>(std::clamp(static_cast<int>(place[k]), 0, bin_count - 1));
     };
     Split best;
     if (work.depth < deepest_by_area) {
         std::array<std::array<Bin, bin_count>, 3> bins;
-        for (int i = work.begin; i < work.end; ++i)
+        for (int i = work.begin; i < work.end; ++i) {
+            const FloatBox& own = box(i);
+            const Float4 places = bins_of(own);
             for (std::size_t k = 0; k < 3; ++k) {
-                Bin& bin = bins[k][static_cast<std::size_t>(bin_of(box(i), k))];
-                bin.box.extend(box(i));
-                ++bin.count;
+                Bin& there = bins[k][bin(places, k)];
+                there.box.extend(own);
+                ++there.count;
             }
+        }
         for (std::size_t k = 0; k < 3; ++k) best_split(bins[k], k, best);
     }
     if (!std::isfinite(best.cost)) return half; // all centres in one place, or deep enough
     const auto right = std::partition(order.begin() + work.begin, order.begin() + work.end, [&](int t) {
-        return bin_of(boxes[static_cast<std::size_t>(t)], best.axis) < best.bin;
+        return bin(bins_of(boxes[static_cast<std::size_t>(t)]), best.axis) < best.bin;
     });
     return static_cast<int>(right - order.begin());
 }
@@ -121,8 +125,7 @@ Builder::Made Builder::make(const Work& work) const {
     for (int i = work.begin; i < work.end; ++i) {
         const FloatBox& b = box(i);
         all.extend(b);
-        const std::array<float, 3> middle{centre(b, 0), centre(b, 1), centre(b, 2)};
-        centres.extend({middle, middle});
+        centres.extend({centre(b), centre(b)});
     }
     return {all, work.end - work.begin <= leaf_size ? work.end : divide(work, centres)};
 }
@@ -153,9 +156,9 @@ std::vector<FloatBox> triangle_boxes(const Points& positions, const Triangles& t
                     c = frame.into(positions.row(triangles(t, 2)));
         const Point low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
         FloatBox& box = boxes[static_cast<std::size_t>(t)];
-        for (std::size_t k = 0; k < 3; ++k) {
-            box.low[k] = -next_above(static_cast<float>(-low[static_cast<Eigen::Index>(k)]));
-            box.high[k] = next_above(static_cast<float>(high[static_cast<Eigen::Index>(k)]));
+        for (int k = 0; k < 3; ++k) {
+            box.low[k] = -next_above(static_cast<float>(-low[k]));
+            box.high[k] = next_above(static_cast<float>(high[k]));
         }
     });
     return boxes;
@@ -170,7 +173,7 @@ BoxTree box_tree(const std::vector<FloatBox>& boxes, int leaf_size) {
     const Builder builder{boxes, tree.order, leaf_size};
     // The top of the tree first, level by level, then the subtrees beside each other; where to cut depends on the items
     // alone.
-    const int small = std::max(4096, count / 64);
+    const int small = std::max(1024, count / 64);
     std::vector<Work> level{{0, 0, count, 0}}, subtrees;
     tree.nodes.resize(1);
     while (!level.empty()) {

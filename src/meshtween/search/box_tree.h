@@ -3,31 +3,30 @@
 
 #include "meshtween/core/mesh.h"
 
-#include <array>
 #include <limits>
 #include <vector>
 
 namespace meshtween::search {
 
+using Float4 = float __attribute__((vector_size(16))); // x, y, z, and one that tells nothing
+
 struct FloatBox {
     static constexpr float nowhere = std::numeric_limits<float>::infinity();
-    std::array<float, 3> low{nowhere, nowhere, nowhere}, high{-nowhere, -nowhere, -nowhere};
+    Float4 low{nowhere, nowhere, nowhere, nowhere}, high{-nowhere, -nowhere, -nowhere, -nowhere};
 
     void extend(const FloatBox& other) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            low[k] = other.low[k] < low[k] ? other.low[k] : low[k];
-            high[k] = other.high[k] > high[k] ? other.high[k] : high[k];
-        }
+        low = other.low < low ? other.low : low;
+        high = other.high > high ? other.high : high;
     }
     float half_area() const {
-        const float x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
-        return x * y + y * z + z * x;
+        const Float4 size = high - low;
+        return size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
     }
 };
 
 inline bool overlap(const FloatBox& a, const FloatBox& b) {
-    return a.low[0] <= b.high[0] && b.low[0] <= a.high[0] && a.low[1] <= b.high[1] && b.low[1] <= a.high[1] &&
-           a.low[2] <= b.high[2] && b.low[2] <= a.high[2];
+    const auto both = (a.low <= b.high) & (b.low <= a.high);
+    return (both[0] & both[1] & both[2]) != 0;
 }
 
 // Into coordinates that floats hold well: the mesh's middle at the origin and its size about 1, by a power of two,

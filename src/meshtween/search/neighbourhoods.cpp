@@ -10,7 +10,8 @@ namespace meshtween::search {
 namespace {
 
 FloatBox box_of(const WideNode& node, int i) {
-    return {{node.low[0][i], node.low[1][i], node.low[2][i]}, {node.high[0][i], node.high[1][i], node.high[2][i]}};
+    return {Float4{node.low[0][i], node.low[1][i], node.low[2][i]},
+            Float4{node.high[0][i], node.high[1][i], node.high[2][i]}};
 }
 
 // How far apart along the axis where they are furthest.

@@ -58,18 +58,34 @@ bool segment_meets_in_plane(const Point& p, const Point& q, const Corners& t) {
     return lies_in(in, t, p);
 }
 
-// The side of the triangle's plane: 0 in it, or as near to it as the gap.
-int side_of(const Corners& plane, const Point& p, double gap) {
-    if (gap > 0) {
-        const Point normal = (plane[1] - plane[0]).cross(plane[2] - plane[0]);
-        const double along = normal.dot(p - plane[0]);
-        if (along * along <= gap * gap * normal.squaredNorm()) return 0;
+// A triangle's plane, whose sides are told exactly.
+class Plane {
+public:
+    Plane(const Corners& t, double gap) : t_(t) {
+        const Point u = t[1] - t[0], v = t[2] - t[0];
+        normal_ = u.cross(v);
+        gap_ = gap * gap * normal_.squaredNorm();
+        doubt_ = rounding * rounding * u.squaredNorm() * v.squaredNorm();
     }
-    return orient3d(plane[0], plane[1], plane[2], p);
-}
+    // 1, -1, or 0 in it or as near to it as the gap.
+    int side(const Point& p) const {
+        const Point way = p - t_[0];
+        const double along = normal_.dot(way);
+        if (gap_ > 0 && along * along <= gap_) return 0;
+        if (along * along > doubt_ * way.squaredNorm()) return along > 0 ? 1 : -1;
+        return orient3d(t_[0], t_[1], t_[2], p);
+    }
 
-bool segment_meets(const Point& p, const Point& q, const Corners& t, double gap) {
-    const int sp = side_of(t, p, gap), sq = side_of(t, q, gap);
+private:
+    static constexpr double rounding = 1e-14; // several times the bound of what `along` can be off by, in lengths
+
+    const Corners& t_;
+    Point normal_;
+    double gap_ = 0, doubt_ = 0; // squared, of `along`; of it by the length of the way
+};
+
+bool segment_meets(const Point& p, const Point& q, const Corners& t, const Plane& plane) {
+    const int sp = plane.side(p), sq = plane.side(q);
     if (sp * sq > 0) return false;
     if (sp == 0 && sq == 0) return segment_meets_in_plane(p, q, t);
     if (sp == 0 || sq == 0) return lies_in(Projection(t), t, sp == 0 ? p : q);
@@ -79,15 +95,17 @@ bool segment_meets(const Point& p, const Point& q, const Corners& t, double gap)
     return first * third >= 0 && second * third >= 0;
 }
 
-bool on_one_side(const Corners& plane, const Corners& t, double gap) {
-    const int first = side_of(plane, t[0], gap);
-    return first != 0 && side_of(plane, t[1], gap) == first && side_of(plane, t[2], gap) == first;
+bool on_one_side(const Plane& plane, const Point& p, const Point& q) {
+    const int first = plane.side(p);
+    return first != 0 && plane.side(q) == first;
 }
 
-bool triangles_meet(const Corners& s, const Corners& t, double gap) {
-    if (on_one_side(s, t, gap) || on_one_side(t, s, gap)) return false;
+bool triangles_meet(const Corners& s, const Corners& t, const Plane& of_s, double gap) {
+    if (on_one_side(of_s, t[0], t[1]) && on_one_side(of_s, t[1], t[2])) return false;
+    const Plane of_t(t, gap);
+    if (on_one_side(of_t, s[0], s[1]) && on_one_side(of_t, s[1], s[2])) return false;
     for (std::size_t k = 0; k < 3; ++k)
-        if (segment_meets(s[k], s[(k + 1) % 3], t, gap) || segment_meets(t[k], t[(k + 1) % 3], s, gap)) return true;
+        if (segment_meets(s[k], s[(k + 1) % 3], t, of_t) || segment_meets(t[k], t[(k + 1) % 3], s, of_s)) return true;
     return false;
 }
 
@@ -130,19 +148,18 @@ Arranged arrange(const Surface& surface, int s, int t) {
 
 bool Surface::cut(int s, int t) const {
     const Arranged pair = arrange(*this, s, t);
-    switch (pair.shared) {
-    case 0:
-        return triangles_meet(pair.s, pair.t, gap);
-    case 1:
-        return segment_meets(pair.s[1], pair.s[2], pair.t, gap) || segment_meets(pair.t[1], pair.t[2], pair.s, gap);
-    case 2: { // folded flat: in one plane, and the third corners on one side of the edge
-        if (side_of(pair.s, pair.t[2], gap) != 0) return false;
-        const Projection in(pair.s);
-        return in.side(pair.s[0], pair.s[1], pair.t[2]) == in.turn;
+    if (pair.shared == 3) return true;
+    const Plane of_s(pair.s, gap);
+    if (pair.shared == 0) return triangles_meet(pair.s, pair.t, of_s, gap);
+    if (pair.shared == 1) {
+        if (on_one_side(of_s, pair.t[1], pair.t[2])) return false; // they meet in the corner alone
+        return segment_meets(pair.s[1], pair.s[2], pair.t, Plane(pair.t, gap)) ||
+               segment_meets(pair.t[1], pair.t[2], pair.s, of_s);
     }
-    default:
-        return true;
-    }
+    // Folded flat along the shared edge: in one plane, and the third corners on one side of it.
+    if (of_s.side(pair.t[2]) != 0) return false;
+    const Projection in(pair.s);
+    return in.side(pair.s[0], pair.s[1], pair.t[2]) == in.turn;
 }
 
 using Pairs = std::vector<std::array<int, 2>>;

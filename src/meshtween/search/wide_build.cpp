@@ -151,8 +151,8 @@ FloatBox box_of(const WideNode& node) {
     FloatBox all;
     for (int i = 0; i < wide; ++i)
         if (!empty(node, i))
-            all.extend({{node.low[0][i], node.low[1][i], node.low[2][i]},
-                        {node.high[0][i], node.high[1][i], node.high[2][i]}});
+            all.extend({Float4{node.low[0][i], node.low[1][i], node.low[2][i]},
+                        Float4{node.high[0][i], node.high[1][i], node.high[2][i]}});
     return all;
 }
 
