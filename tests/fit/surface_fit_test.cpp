@@ -2,7 +2,6 @@
 
 #include "meshtween/core/parallel.h"
 #include "meshtween/fit/align.h"
-#include "meshtween/fit/hierarchy.h"
 #include "meshtween/fit/settle.h"
 #include "meshtween/fit/shell.h"
 #include "meshtween/geometry/measure.h"
@@ -78,24 +77,6 @@ TEST(Align, AxesThatTellNothingLeaveShapesAsTheyStand) {
     const Similarity s = align_axes(m.positions, m.triangles, bumpy.positions, bumpy.triangles);
     EXPECT_EQ(s.rotation, Eigen::Matrix3d::Identity());
     EXPECT_NEAR(s.scale, 1, 0.02);
-}
-
-TEST(Hierarchy, LevelsLieOnTheMeshAndPlacesAreNear) {
-    const Mesh m = sphere(5);
-    const auto levels = hierarchy(m.positions, m.triangles, {100, 4});
-    ASSERT_GE(levels.size(), 3u);
-    for (std::size_t k = 1; k < levels.size(); ++k) {
-        const Level& level = levels[k];
-        for (std::size_t i = 0; i < level.finer.size(); ++i)
-            EXPECT_EQ(level.positions.row(static_cast<Eigen::Index>(i)), levels[k - 1].positions.row(level.finer[i]));
-        EXPECT_GT(volume(level.positions, level.triangles), 0.75 * 4 * std::numbers::pi / 3);
-        ASSERT_EQ(level.place.size(), static_cast<std::size_t>(levels[k - 1].positions.rows()));
-        for (std::size_t i = 0; i < level.place.size(); ++i)
-            EXPECT_LT((position(level.positions, level.triangles, level.place[i]) -
-                       levels[k - 1].positions.row(static_cast<Eigen::Index>(i)))
-                          .norm(),
-                      0.3);
-    }
 }
 
 TEST(Shell, BendingIsBlindToLinearMapsOfAPlaneAndOpenBordersToo) {

@@ -33,12 +33,23 @@ Triangles creases(const FitTarget& target, const Points& normals) {
     return result;
 }
 
+// Of the target, that each vertex lies on.
+std::vector<int> faces_at(const Points& x, const FitTarget& target, std::vector<int> places) {
+    places.resize(idx(x.rows()), -1);
+    parallel_for(
+        x.rows(),
+        [&](std::ptrdiff_t i) {
+            int& place = places[idx(i)];
+            place = target.index.closest(Point(x.row(i)), place).where.triangle;
+        },
+        64);
+    return places;
+}
+
 // Where each vertex would go: the nearest place of a crease; its own place where an edge leads over none, or the other
 // end is nearer to it.
-Points wanted(const Points& x, const Topology& topology, const FitTarget& target, const Triangles& creases) {
-    std::vector<int> faces(idx(x.rows())); // of the target, that the vertex lies on
-    parallel_for(
-        x.rows(), [&](std::ptrdiff_t i) { faces[idx(i)] = target.index.closest(Point(x.row(i))).where.triangle; }, 64);
+Points wanted(const Points& x, const Topology& topology, const FitTarget& target, const std::vector<int>& faces,
+              const Triangles& creases) {
     const Points& normals = target.index.normals();
     const auto leads_over = [&](Eigen::Index i, int j) {
         return normals.row(faces[idx(i)]).dot(normals.row(faces[idx(j)])) < smooth;
@@ -67,8 +78,8 @@ Points wanted(const Points& x, const Topology& topology, const FitTarget& target
 }
 
 // How far the mesh around a vertex lies from the target, squared: the middles of its edges and triangles.
-double distance_around(Eigen::Index i, const Points& x, const Shell& shell, const FitTarget& target) {
-    int last = -1; // where the last answer lay is near the next
+double distance_around(Eigen::Index i, const Points& x, const Shell& shell, const FitTarget& target, int face) {
+    int last = face; // where the last answer lay is near the next
     const auto squared = [&](const Point& at) {
         const ClosestPoint there = target.index.closest(at, last);
         last = there.where.triangle;
@@ -87,48 +98,64 @@ bool is_spoilt(const Point& before, const Point& now) {
     return now.norm() < least_area * before.norm() || now.dot(before) < least_facing * now.norm() * before.norm();
 }
 
-// The vertices that have moved where they should not have.
-std::vector<char> ill_moved(const std::vector<int>& moved, const Points& from, const Points& to, const Shell& shell,
-                            const FitTarget& target) {
-    std::vector<char> result(idx(from.rows()), 0);
+// Of the vertices asked for, those that have moved where they should not have.
+std::vector<int> ill_moved(const std::vector<int>& asked, const Points& from, const Points& to, const Shell& shell,
+                           const FitTarget& target, const std::vector<int>& faces) {
+    std::vector<char> ill(asked.size(), 0);
     parallel_for(
-        std::ssize(moved),
+        std::ssize(asked),
         [&](std::ptrdiff_t k) {
-            const int i = moved[idx(k)];
+            const int i = asked[idx(k)], face = faces[idx(i)];
             const auto around = shell.topology.vertex_triangles[i];
-            result[idx(i)] = std::any_of(around.begin(), around.end(),
-                                         [&](int t) {
-                                             return is_spoilt(double_area_normal(from, shell.triangles, t),
-                                                              double_area_normal(to, shell.triangles, t));
-                                         }) ||
-                             distance_around(i, to, shell, target) >= distance_around(i, from, shell, target);
+            ill[idx(k)] = std::any_of(around.begin(), around.end(),
+                                      [&](int t) {
+                                          return is_spoilt(double_area_normal(from, shell.triangles, t),
+                                                           double_area_normal(to, shell.triangles, t));
+                                      }) ||
+                          distance_around(i, to, shell, target, face) >= distance_around(i, from, shell, target, face);
         },
         16);
+    std::vector<int> result;
+    for (std::size_t k = 0; k < asked.size(); ++k)
+        if (ill[k]) result.push_back(asked[k]);
     return result;
 }
 
 } // namespace
 
-Points creased(TangleSearch& search, const Points& positions, const Tangles& before) {
+Points creased(TangleSearch& search, const Points& positions, const Tangles& before, const std::vector<int>& places) {
+    const Shell& shell = search.shell;
     const Triangles edges = creases(search.target, search.target.index.normals());
     if (edges.rows() == 0) return positions;
-    Points result = wanted(positions, search.shell.topology, search.target, edges);
-    std::vector<int> moved;
-    for (Eigen::Index i = 0; i < positions.rows(); ++i)
-        if (result.row(i) != positions.row(i)) moved.push_back(static_cast<int>(i));
-    const auto take_back = [&](const std::vector<char>& ill) {
-        const auto count = moved.size();
-        std::erase_if(moved, [&](int i) {
-            if (ill[idx(i)]) result.row(i) = positions.row(i);
-            return ill[idx(i)] != 0;
-        });
-        return moved.size() < count;
+    const std::vector<int> faces = faces_at(positions, search.target, places);
+    Points result = wanted(positions, shell.topology, search.target, faces, edges);
+    std::vector<int> asked;
+    const auto has_moved = [&](int i) { return result.row(i) != positions.row(i); };
+    for (int i = 0; i < static_cast<int>(positions.rows()); ++i)
+        if (has_moved(i)) asked.push_back(i);
+    // Those go back, and whose neighbours went back is asked again: another may do better alone, or worse.
+    const auto take_back = [&](const std::vector<int>& ill) {
+        for (const int i : ill) result.row(i) = positions.row(i);
+        asked.clear();
+        for (const int i : ill)
+            for (const int j : shell.topology.neighbours[i])
+                if (has_moved(j)) asked.push_back(j);
+        std::sort(asked.begin(), asked.end());
+        asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
     };
-    do { // a vertex that goes back may leave another alone
-        while (take_back(ill_moved(moved, positions, result, search.shell, search.target))) {
-        }
-    } while (take_back(newly_tangled(search.shell, before,
-                                     tangles(search, result, before, touched(search.shell, positions, result)))));
+    Tangles left = before;
+    Points last = positions;
+    for (bool any = true; any;) {
+        while (!asked.empty()) take_back(ill_moved(asked, positions, result, shell, search.target, faces));
+        left = tangles(search, result, left, touched(shell, last, result));
+        last = result;
+        std::vector<int> ill;
+        const std::vector<char> tangled = newly_tangled(shell, before, left);
+        for (int i = 0; i < static_cast<int>(tangled.size()); ++i)
+            if (tangled[idx(i)] && has_moved(i)) ill.push_back(i);
+        any = !ill.empty();
+        take_back(ill);
+    }
     return result;
 }
 

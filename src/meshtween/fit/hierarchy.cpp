@@ -321,7 +321,7 @@ std::vector<Level> hierarchy(const Points& positions, const Triangles& triangles
         const Level& finer = levels.back();
         const auto wanted = static_cast<Eigen::Index>(static_cast<double>(finer.positions.rows()) / options.factor);
         if (wanted < options.coarsest / 2) break;
-        decimation.collapse_to(std::max<Eigen::Index>(wanted, options.coarsest));
+        decimation.collapse_to(wanted < 2 * options.coarsest ? options.coarsest : wanted);
         if (static_cast<double>(decimation.alive()) > 0.7 * static_cast<double>(finer.positions.rows())) break;
         Level level = remaining(decimation, positions, finer_index, index);
         level.place.resize(static_cast<std::size_t>(finer.positions.rows()));

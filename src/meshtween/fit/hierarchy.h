@@ -16,8 +16,8 @@ struct Level {
 };
 
 struct HierarchyOptions {
-    int coarsest = 500; // vertices: no level is thinned further
-    double factor = 4;  // vertices of a level over those of the next coarser one
+    int coarsest = 500; // vertices: where it ends
+    double factor = 4;  // vertices of a level over those of the next coarser one; up to twice as many at the last step
 };
 
 // Finest first; level 0 is the mesh itself. Edges collapse onto one of their ends about in the order of quadric error

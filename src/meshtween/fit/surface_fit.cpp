@@ -292,8 +292,8 @@ Landed land(TangleSearch& search, std::span<const Pin> pins, const Points& x, bo
     const Tangles faults = tangles(search, settled.positions, settled.flipped);
     const Untangled untangled = untangle(search, settled.positions, faults, pins, part_of(progress, 0, 0.5));
     result.patches = untangled.patches;
-    Nudged nudged = nudge(search, creased(search, untangled.positions, untangled.left), untangled.left, pins, false,
-                          settled.places);
+    Nudged nudged = nudge(search, creased(search, untangled.positions, untangled.left, settled.places), untangled.left,
+                          pins, false, settled.places);
     Landed landed{nudged.positions,
                   Points::Zero(x.rows(), 3),
                   std::move(settled.places),
