@@ -4,6 +4,8 @@
 #include "meshtween/core/mesh.h"
 #include "meshtween/fit/shell.h"
 
+#include <Eigen/Geometry>
+
 #include <array>
 #include <optional>
 #include <span>
@@ -11,14 +13,22 @@
 
 namespace meshtween {
 
+// A triangle of a mesh as it lies now.
+struct Sheet {
+    std::array<int, 3> vertices{};
+    std::array<Point, 3> corners;
+    Eigen::AlignedBox3d box;
+    Point normal{0, 0, 0};  // of any length
+    double normal_size = 0; // that length
+};
+
+Sheet sheet(const std::array<int, 3>& vertices, const std::array<Point, 3>& corners);
+Sheet sheet(const Points& positions, const Triangles& triangles, int t);
+
 // The length of the line in which two triangles cut each other; nothing for two that do not, or that share an edge.
-std::optional<double> cut_length(const Points& positions, const Triangles& triangles, int s, int t);
+std::optional<double> cut_length(const Sheet& a, const Sheet& b);
 
 // Triangles within a few rings of those that cut, ascending: what these could cut instead.
 std::vector<int> beside_cuts(const Shell& shell, std::span<const std::array<int, 2>> cuts);
-
-// Of the given triangles those whose box comes within `reach` of the box around a vertex and its neighbours.
-std::vector<int> near_vertex(const Shell& shell, const Points& positions, Eigen::Index vertex,
-                             std::span<const int> triangles, double reach);
 
 } // namespace meshtween

@@ -9,6 +9,8 @@
 
 namespace meshtween {
 
+constexpr std::size_t few_faults = 300; // of more, only what looks into the target is nudged
+
 struct Nudged {
     Points positions;
     Tangles left;
@@ -19,8 +21,7 @@ struct Nudged {
 // places that look the same way, the lengths of cuts, and the distances. They stay on the target, or, with `leave`,
 // within a fifth of an edge. Rounds go on while fewer faults are left. No triangle grows much thinner, no pin comes to
 // lie further off, and no part of the mesh cuts more than it did. `before` are the tangles of the positions; `places`,
-// a triangle of the target that is probably near for each vertex, make it faster. Where there are hundreds of faults,
-// only what looks into the target is nudged.
+// a triangle of the target that is probably near for each vertex, make it faster.
 Nudged nudge(TangleSearch& search, const Points& positions, const Tangles& before, std::span<const Pin> pins,
              bool leave = false, const std::vector<int>& places = {});
 

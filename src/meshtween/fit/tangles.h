@@ -2,6 +2,7 @@
 #pragma once
 
 #include "meshtween/core/mesh.h"
+#include "meshtween/fit/facing.h"
 #include "meshtween/fit/refine.h"
 #include "meshtween/fit/shell.h"
 
@@ -17,11 +18,13 @@ struct KnownCuts {
     std::vector<char> target;               // a flag a triangle: it touches one that cuts another
 };
 
-// What is looked at; both must outlive it. `known` is found when first needed: most fits have no cuts to ask about.
+// What is looked at; both must outlive it. What else it has is made when first needed: most fits have no cuts to ask
+// about.
 struct TangleSearch {
     const Shell& shell;
     const FitTarget& target;
     std::optional<KnownCuts> known;
+    std::optional<FacingWatch> facing = {}; // with both sides of edges
 };
 
 // Pairs of triangles that cut each other, ascending, or come so near that they may do so in a file of floats.

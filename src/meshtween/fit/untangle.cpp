@@ -172,6 +172,15 @@ void melted(TangleSearch& search, const Cover& cover, std::span<const Pin> pins,
     }
 }
 
+// What is left, where it is little, by moves of single vertices: sooner done than a wider patch.
+void nudge_rest(TangleSearch& search, std::span<const Pin> pins, Untangled& result) {
+    if (result.left.count() == 0 || result.left.count() > few_faults) return;
+    Nudged nudged = nudge(search, result.positions, result.left, pins);
+    if (nudged.left.count() >= result.left.count()) return;
+    result.positions = std::move(nudged.positions);
+    result.left = std::move(nudged.left);
+}
+
 // Patches of growing size, as long as they mend anything.
 void laid_out(TangleSearch& search, const Cover& cover, std::span<const Pin> pins, const Progress& progress,
               Untangled& result) {
@@ -183,6 +192,7 @@ void laid_out(TangleSearch& search, const Cover& cover, std::span<const Pin> pin
         for (FoldedPatch& patch : patches.list) patch.any_sheet = k % 2 == 0; // each way mends what the other does not
         const std::size_t before = result.left.count();
         mend(search, patches, cover, pins, result);
+        nudge_rest(search, pins, result);
         idle = result.left.count() < before ? 0 : idle + 1;
     }
 }
@@ -218,8 +228,8 @@ Points held_back(TangleSearch& search, const Points& before, const Points& now) 
     const Lists& neighbours = search.shell.topology.neighbours;
     Points result = now;
     std::vector<char> cut_before(search.shell.area.size(), 0);
+    std::vector<char> seen = folded(search.shell, result);
     for (int round = 0; round < rounds; ++round) {
-        const std::vector<char> seen = folded(search.shell, result);
         const auto cuts = new_cuts(search, result, seen);
         if (cuts.empty()) break;
         if (round == 0)
@@ -233,8 +243,10 @@ Points held_back(TangleSearch& search, const Points& before, const Points& now) 
             if (!lost(pair[0]) && !lost(pair[1])) mark_corners(triangles, pair, share);
         spread(neighbours, share, 0);
         for (int ring = 1; ring < faded; ++ring) spread(neighbours, share, fading);
+        const Points last = result;
         for (Eigen::Index i = 0; i < result.rows(); ++i)
             if (share[idx(i)] > 0) result.row(i) += share[idx(i)] * (before.row(i) - result.row(i));
+        seen = touched(search.shell, last, result);
     }
     return result;
 }
@@ -271,21 +283,17 @@ Untangled untangle(TangleSearch& search, const Points& positions, const Tangles&
     cover.triangles = answering(search.shell, positions, cover.samples);
     laid_out(search, cover, pins, part_of(progress, 0, 0.3), result);
     if (result.left.cuts.empty() || result.cancelled) return result;
-    const Nudged nudged = nudge(search, result.positions, result.left, pins);
-    Untangled unmelted = result;
-    unmelted.positions = nudged.positions;
-    unmelted.left = nudged.left;
-    if (unmelted.left.cuts.empty()) return unmelted;
-    const auto in_vain = [&] { return 2 * result.left.cuts.size() > unmelted.left.cuts.size(); };
+    Untangled molten = result;
+    const auto in_vain = [&] { return 2 * molten.left.cuts.size() > result.left.cuts.size(); };
     for (const double part : {0.5, 1.0}) {
-        if (result.left.cuts.empty() || result.cancelled) break;
-        melted(search, cover, pins, part, result);
+        if (molten.left.cuts.empty() || molten.cancelled) break;
+        melted(search, cover, pins, part, molten);
         if (!in_vain())
-            laid_out(search, cover, pins, part_of(progress, 0.3 + 0.7 * (part - 0.5), 0.3 + 0.7 * part), result);
+            laid_out(search, cover, pins, part_of(progress, 0.3 + 0.7 * (part - 0.5), 0.3 + 0.7 * part), molten);
     }
-    if (!in_vain()) return result;
-    unmelted.cancelled = result.cancelled;
-    return unmelted; // melting costs some of the form, and is worth it where it mends
+    if (!in_vain()) return molten;
+    result.cancelled = molten.cancelled;
+    return result; // melting costs some of the form, and is worth it where it mends
 }
 
 } // namespace meshtween

@@ -28,9 +28,9 @@ struct Untangled {
 };
 
 // Each connected patch of `faults` (all that tangles() finds) and the rings around it are laid out anew (unfolded) with
-// all else held; where that leaves fewer faults it is kept, then a wider patch is tried. Where cuts are left, they are
-// nudged apart; where that leaves any, what is around them is smoothed first, and all is tried once more. A mesh
-// without faults comes back as it was.
+// all else held; where that leaves fewer faults it is kept. What is left, if it is little, is nudged, then a wider
+// patch is tried. Where cuts are left in the end, what is around them is smoothed first, and all is tried once more. A
+// mesh without faults comes back as it was.
 Untangled untangle(TangleSearch& search, const Points& positions, const Tangles& faults, std::span<const Pin> pins,
                    const Progress& progress = {});
 
