@@ -2,7 +2,7 @@
 // bending falls as the fourth power of a length, from a fifth of the target to less than a thousandth; in the limit the
 // shell lies on the surface and its bending alone says where along it each vertex goes.
 //
-// The stages and their papers are in align, shell, refine, settle, untangle, crease, nudge and lift.
+// The stages and their papers are in align, shell, refine, mend_level, settle, untangle, crease, nudge and lift.
 #include "meshtween/fit/surface_fit.h"
 
 #include "meshtween/core/error.h"
@@ -11,6 +11,7 @@
 #include "meshtween/fit/crease.h"
 #include "meshtween/fit/lift.h"
 #include "meshtween/fit/marker_twins.h"
+#include "meshtween/fit/mend_level.h"
 #include "meshtween/fit/nudge.h"
 #include "meshtween/fit/refine.h"
 #include "meshtween/fit/renumber.h"
@@ -230,8 +231,10 @@ struct Closed {
     bool cancelled = false;
 };
 
-// From the pose on the coarsest level to the finest. Cancelled, it goes on to the whole mesh without relaxing.
-Closed close_in(const ShellLevels& shells, TangleSearch& search, Closed posed, double marker_weight,
+// From the pose on the coarsest level to the finest; `searches` are one a level. Once a level had to be mended, the
+// finer ones are kept as the finest always is: they start smooth, and what would fold waits. Cancelled, it goes on to
+// the whole mesh without relaxing.
+Closed close_in(const ShellLevels& shells, std::vector<TangleSearch>& searches, Closed posed, double marker_weight,
                 const std::function<void(const Points&)>& watch, const Progress& progress) {
     const std::size_t levels = shells.levels.size();
     RelaxWeights weights;
@@ -240,6 +243,8 @@ Closed close_in(const ShellLevels& shells, TangleSearch& search, Closed posed, d
     weights.pins *= marker_weight;
     Closed result = std::move(posed);
     Points& x = result.positions;
+    const FitTarget& target = searches[0].target;
+    bool mended = false;
     double done = 0, work = 0; // in vertices seen, for the progress
     const auto rounds_on = [](std::size_t level) { return level == 0 ? finest_rounds : rounds_a_level; };
     for (std::size_t k = 0; k < levels; ++k)
@@ -260,15 +265,22 @@ Closed close_in(const ShellLevels& shells, TangleSearch& search, Closed posed, d
             weights.cycles = weights.centres > 0 ? whole_cycles : RelaxWeights().cycles;
             result.cancelled = result.cancelled || !keep_going(progress, 0.15 + 0.75 * done / work, "fitting");
             if (result.cancelled) break;
-            Points relaxed = relax(shells, k, x, search.target, weights, memory);
-            x = k == 0 ? held_back(search, x, relaxed) : std::move(relaxed);
+            Points relaxed = relax(shells, k, x, target, weights, memory);
+            x = k == 0 || mended ? held_back(searches[k], x, relaxed) : std::move(relaxed);
             done += static_cast<double>(x.rows());
             ++result.rounds;
             if (watch) watch(on_finest(shells, k, x));
         }
         weights.membrane = membrane_share(strain(shells.shells[k], x));
-        if (k > 0) x = refine_positions(shells, k, x, weights.with_scale);
-        if (k == 1 && !result.cancelled) x = eased(search, x);
+        if (k == 0) break;
+        if (!result.cancelled)
+            if (std::optional<Points> better =
+                    mended_level(searches[k], x, shells.pins[k], mended ? Mending::all : Mending::much)) {
+                x = std::move(*better);
+                mended = true;
+            }
+        x = refine_positions(shells, k, x, weights.with_scale);
+        if ((k == 1 || mended) && !result.cancelled) x = eased(searches[k - 1], x);
     }
     return result;
 }
@@ -376,16 +388,17 @@ FitResult surface_fit(const Mesh& source_mesh, const Mesh& target_mesh, std::spa
     std::function<void(const Points&)> watch;
     if (options.watch)
         watch = [&](const Points& on_curve) { options.watch(frame.out(as_before(source.vertex, on_curve))); };
-    TangleSearch search{shells.shells[0], target, {}};
+    std::vector<TangleSearch> searches;
+    for (const Shell& shell : shells.shells) searches.push_back({shell, target, {}});
     Closed closed{{}, 0, !keep_going(progress, 0.1, "posing")};
     closed.positions = articulate(shells, target);
-    closed = close_in(shells, search, std::move(closed), options.marker_weight, watch, progress);
+    closed = close_in(shells, searches, std::move(closed), options.marker_weight, watch, progress);
     result.rounds = closed.rounds;
     Points x = std::move(closed.positions);
     const std::span<const Pin> held =
         options.marker_weight > 0 ? std::span<const Pin>(shells.pins[0]).first(markers.size()) : std::span<const Pin>();
     Landed landed{x, Points::Zero(x.rows(), 3), {}, {}};
-    if (!closed.cancelled) landed = land(search, held, x, options.on_surface, part_of(progress, 0.9, 1), result);
+    if (!closed.cancelled) landed = land(searches[0], held, x, options.on_surface, part_of(progress, 0.9, 1), result);
     x = std::move(landed.positions);
     for (Eigen::Index i = 0; i < x.rows(); ++i) // vertices of no triangle go where the similarity takes them
         if (shells.shells[0].topology.vertex_triangles[i].empty()) x.row(i) = rest.row(i);

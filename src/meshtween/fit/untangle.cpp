@@ -276,13 +276,13 @@ Points eased(TangleSearch& search, const Points& positions) {
 }
 
 Untangled untangle(TangleSearch& search, const Points& positions, const Tangles& faults, std::span<const Pin> pins,
-                   const Progress& progress) {
+                   const Progress& progress, Melting melting) {
     Untangled result{positions, faults};
     if (result.left.count() == 0) return result;
     Cover cover{target_samples(search.target), {}};
     cover.triangles = answering(search.shell, positions, cover.samples);
     laid_out(search, cover, pins, part_of(progress, 0, 0.3), result);
-    if (result.left.cuts.empty() || result.cancelled) return result;
+    if (result.left.cuts.empty() || result.cancelled || melting == Melting::never) return result;
     Untangled molten = result;
     const auto in_vain = [&] { return 2 * molten.left.cuts.size() > result.left.cuts.size(); };
     for (const double part : {0.5, 1.0}) {
