@@ -273,9 +273,10 @@ Closed close_in(const ShellLevels& shells, std::vector<TangleSearch>& searches, 
         }
         weights.membrane = membrane_share(strain(shells.shells[k], x));
         if (k == 0) break;
-        if (!result.cancelled)
+        if (const double now = 0.15 + 0.75 * done / work; !result.cancelled)
             if (std::optional<Points> better =
-                    mended_level(searches[k], x, shells.pins[k], mended ? Mending::all : Mending::much)) {
+                    mended_level(searches[k], x, shells.pins[k], mended ? Mending::all : Mending::much,
+                                 part_of(progress, now, now))) {
                 x = std::move(*better);
                 mended = true;
             }
