@@ -93,8 +93,10 @@ Fan fan_around(const FanGround& ground, const Points& positions, Eigen::Index ve
             else
                 judged.fellows.push_back(blade(other, vertex));
         }
-        const auto pins = std::ranges::equal_range(ground.pins, t, {}, [](const Pin& p) { return p.where.triangle; });
-        judged.pins.assign(pins.begin(), pins.end());
+        const auto triangle_of = [](const Pin& pin) { return pin.where.triangle; };
+        for (auto pin = std::ranges::lower_bound(ground.pins, t, {}, triangle_of);
+             pin != ground.pins.end() && triangle_of(*pin) == t; ++pin)
+            judged.pins.push_back(*pin);
         for (const Pin& pin : judged.pins) fan.pins_off += squared_distance(pin, own);
         judged.wanting = wanting(ground, judged, positions.row(vertex), place);
         fan.wanting += judged.wanting;

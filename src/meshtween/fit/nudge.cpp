@@ -106,7 +106,7 @@ Point best_place(const Ground& ground, const std::vector<int>& sheets, const Poi
         mean += length / static_cast<double>(neighbours.size());
     }
     const Fan fan = fan_around(ground.fans, x, vertex, sheets, mean); // steps and heights do not lead further off
-    if (fan.wanting < fault_costs) return start;                      // nothing is wanting there
+    if (fan.wanting < fault_costs) return x.row(vertex);              // nothing is wanting there
     const std::vector<ClosestPoint> places = places_to_try(ground, x, vertex, shortest, mean, wide, turn);
     const double own_height = std::sqrt(places[0].squared_distance);
     struct Best {
