@@ -1,6 +1,7 @@
 #include "fit_run.h"
 
 #include "meshtween/core/error.h"
+#include "meshtween/fit/counterpart.h"
 #include "meshtween/fit/markers.h"
 #include "meshtween/fit/quality.h"
 #include "meshtween/fit/refined_fit.h"
@@ -176,10 +177,16 @@ Fitted run_fit(const Mesh& source, const Mesh& target, const MarkerPairs& marker
         console.note(fmt::format("symmetry: both shapes are their own mirror images, {} marker{} drew on the other "
                                  "side as well (--no-symmetry leaves that out)",
                                  result.twins, result.twins == 1 ? "" : "s"));
+    const auto beyond = std::ranges::count(fitted.map.border, 1);
+    if (100 * beyond > quality.vertices)
+        console.note(fmt::format("beyond: the target ends before {} of {} vertices: nothing on it answers to them, and "
+                                 "they follow the rest (--weights says which)",
+                                 beyond, quality.vertices));
+    const std::ptrdiff_t flips = std::ssize(without_beyond(fitted.mesh.triangles, fitted.map.border, quality.flipped));
     console.note(fmt::format("fit: {:.4f} % to the target, {:.4f} % back, {} flipped of {} faces, {} cuts, {:.2f} s",
-                             quality.fitted_to_target.mean, quality.target_to_fitted.mean, quality.flipped.size(),
-                             quality.triangles, quality.cuts.size(), seconds));
-    if (1000 * std::ssize(quality.flipped) > quality.triangles)
+                             quality.fitted_to_target.mean, quality.target_to_fitted.mean, flips, quality.triangles,
+                             quality.cuts.size(), seconds));
+    if (1000 * flips > quality.triangles)
         console.warn(
             "the mesh is folded in places (guards and worst in --report say where); a marker that disagrees with "
             "its neighbours folds it, a few more around the place unfold it");

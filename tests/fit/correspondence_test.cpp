@@ -13,20 +13,6 @@ using namespace meshtween;
 
 namespace {
 
-// The part of a mesh whose vertices all satisfy `keep`; vertices stay.
-template <typename Keep>
-Mesh part_of_mesh(const Mesh& mesh, const Keep& keep) {
-    Mesh result = mesh;
-    Eigen::Index count = 0;
-    for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
-        bool all = true;
-        for (int k = 0; k < 3; ++k) all = all && keep(mesh.positions.row(mesh.triangles(t, k)));
-        if (all) result.triangles.row(count++) = mesh.triangles.row(t);
-    }
-    result.triangles.conservativeResize(count, 3);
-    return result;
-}
-
 TEST(Correspondence, AMeshAnswersToItself) {
     const Mesh m = sphere(4);
     const Correspondence c = correspondence(m, m);
@@ -67,6 +53,20 @@ TEST(Correspondence, NothingAnswersBeyondAHole) {
         }
         if (m.positions(i, 2) < 0.1) {
             EXPECT_GT(c.trust[k], 0.99);
+        }
+    }
+}
+
+TEST(Correspondence, ALegTheTargetHasNotFindsNoneInTheOther) {
+    const Mesh m = two_legs();
+    const Mesh one = part_of_mesh(m, [](const Point& p) { return p[0] < 0.1 || p[2] > 0; });
+    const Correspondence c = correspondence(m, one);
+    for (Eigen::Index i = 0; i < m.positions.rows(); ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        if (m.positions(i, 2) > 0.1 || m.positions(i, 0) < 0) {
+            EXPECT_GT(c.trust[k], 0.9);
+        } else if (m.positions(i, 2) < -1.1) {
+            EXPECT_EQ(c.border[k], 1);
         }
     }
 }

@@ -86,6 +86,7 @@ TEST(BackPulls, OneOfSeveralNeighboursPullsForAllOfThem) {
     ASSERT_GE(fine.positions.rows(), 8 * m.triangles.rows());
     const auto strengths = [&](int round) {
         RelaxMemory memory;
+        bring_mesh(memory, coarse, m.positions);
         std::vector<double> list;
         for (const SamplePull& pull : back_pulls(coarse, m.positions, target, 1, 1, round, memory))
             list.push_back(pull.strength);

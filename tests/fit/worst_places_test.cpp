@@ -3,6 +3,8 @@
 #include "meshtween/geometry/measure.h"
 #include "meshtween/geometry/shapes.h"
 
+#include "support/shapes.h"
+
 #include <gtest/gtest.h>
 
 using namespace meshtween;
@@ -52,6 +54,21 @@ TEST(WorstPlaces, StretchIsBesideTheChangeOfTheWhole) {
     ASSERT_FALSE(worst.empty());
     EXPECT_EQ(worst[0].fault, PlaceFault::stretched);
     EXPECT_LT((m.positions.row(worst[0].vertex) - m.positions.row(i)).norm(), 0.2);
+}
+
+TEST(WorstPlaces, WhatTheTargetDoesNotShowIsNoFault) {
+    const Mesh m = two_legs();
+    const Mesh body = part_of_mesh(m, [](const Point& p) { return p[2] > -0.3; });
+    Mesh fitted = m;
+    fitted.positions.row(topmost(m, 2)) *= 1.08;
+    const std::vector<WorstPlace> faults = faults_of(m, fitted, body);
+    const auto worst = worst_places(fitted, faults);
+    ASSERT_GE(worst.size(), 2U);
+    EXPECT_EQ(worst[0].fault, PlaceFault::off_target);
+    EXPECT_EQ(worst[1].fault, PlaceFault::beyond);
+    EXPECT_EQ(worst[1].badness, 1);
+    for (const MarkerSuggestion& s : suggest_markers(m, body, correspondence(fitted, body), faults, {}))
+        EXPECT_GT(m.positions(s.place.vertex, 2), -0.5);
 }
 
 TEST(SuggestMarkers, StartAtTheWorstAndKeepApart) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "meshtween/core/mesh.h"
+#include "meshtween/geometry/shapes.h"
 
 #include <cmath>
 
@@ -34,6 +35,30 @@ inline Mesh wavy_sheet(int rows, int columns) {
             mesh.triangles.row(t++) << a + 1, a + columns + 1, a + columns;
         }
     return mesh;
+}
+
+// A ball of radius 1 with two legs, 1.5 long, below it at x = -0.5 and 0.5.
+inline Mesh two_legs() {
+    Mesh mesh = sphere(5);
+    for (auto p : mesh.positions.rowwise()) {
+        const double away = std::hypot(std::abs(p[0]) - 0.5, p[1]);
+        if (p[2] < 0) p[2] -= 1.5 * std::exp(-std::pow(away / 0.3, 4));
+    }
+    return mesh;
+}
+
+// The part of a mesh whose vertices all satisfy `keep`; vertices stay.
+template <typename Keep>
+Mesh part_of_mesh(const Mesh& mesh, const Keep& keep) {
+    Mesh result = mesh;
+    Eigen::Index count = 0;
+    for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+        bool all = true;
+        for (int k = 0; k < 3; ++k) all = all && keep(mesh.positions.row(mesh.triangles(t, k)));
+        if (all) result.triangles.row(count++) = mesh.triangles.row(t);
+    }
+    result.triangles.conservativeResize(count, 3);
+    return result;
 }
 
 } // namespace meshtween

@@ -1,5 +1,6 @@
 #include "meshtween/app/report.h"
 
+#include "meshtween/fit/counterpart.h"
 #include "meshtween/geometry/measure.h"
 
 #include <sys/resource.h>
@@ -128,6 +129,7 @@ Json describe(const Mesh& mesh, const std::vector<Finding>& findings) {
 Json fit_places(const Mesh& source, const Mesh& fitted, const Mesh& target, const FitResult& result,
                 const Correspondence& map, const Quality& quality, std::span<const Marker> markers, std::size_t most) {
     const std::vector<WorstPlace> faults = place_faults(source, fitted, map);
+    const std::vector<int> flips = without_beyond(fitted.triangles, map.border, quality.flipped);
     Json worst = Json::array(), next = Json::array();
     for (const WorstPlace& place : worst_places(fitted, faults))
         worst.push_back({{"vertex", place.vertex},
@@ -142,18 +144,21 @@ Json fit_places(const Mesh& source, const Mesh& fitted, const Mesh& target, cons
                         {"vertex", s.place.vertex},
                         {"why", s.place.badness < 0.2 ? "no marker is near" : name_of(s.place.fault)},
                         {"badness", s.place.badness}});
-    return {{"guards",
-             {{"refused_steps", result.refused_steps},
-              {"refused", told_vertices(fitted, first_of(result.refused, most))},
-              {"flips_mended", result.mended.size()},
-              {"mended", told_triangles(fitted, first_of(result.mended, most))},
-              {"flips_left", quality.flipped.size()},
-              {"flipped", told_triangles(fitted, first_of(quality.flipped, most))},
-              {"patches_unfolded", result.patches},
-              {"cuts_left", quality.cuts.size()},
-              {"cuts", told_pairs(fitted, first_of(quality.cuts, most))}}},
-            {"worst", worst},
-            {"next_markers", next}};
+    return {
+        {"guards",
+         {{"refused_steps", result.refused_steps},
+          {"refused", told_vertices(fitted, first_of(result.refused, most))},
+          {"flips_mended", result.mended.size()},
+          {"mended", told_triangles(fitted, first_of(result.mended, most))},
+          {"flips_left", flips.size()},
+          {"flipped", told_triangles(fitted, first_of(flips, most))},
+          {"patches_unfolded", result.patches},
+          {"cuts_left", quality.cuts.size()},
+          {"cuts", told_pairs(fitted, first_of(quality.cuts, most))}}},
+        {"beyond",
+         {{"vertices", std::ranges::count(map.border, 1)}, {"flipped_faces", quality.flipped.size() - flips.size()}}},
+        {"worst", worst},
+        {"next_markers", next}};
 }
 
 Json to_json(const PathQuality& quality, const Triangles& triangles, const std::function<Points(double u)>& at) {

@@ -58,11 +58,7 @@ double mean_edge(const Shell& shell, const Points& positions) {
 
 std::vector<SamplePull> back_pulls(const Shell& shell, const Points& positions, const FitTarget& target, double weight,
                                    double reach, int round, RelaxMemory& memory) {
-    if (memory.positions)
-        memory.positions->move(positions);
-    else
-        memory.positions = std::make_unique<ClosestPointIndex>(positions, shell.triangles, MeshIs::moving);
-    const ClosestPointIndex& index = *memory.positions;
+    const ClosestPointIndex& index = *memory.mesh;
     const auto& rim = shell.topology.on_boundary;
     const bool open = std::find(rim.begin(), rim.end(), 1) != rim.end();
     const Eigen::Index all = target.positions.rows(),

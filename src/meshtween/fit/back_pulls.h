@@ -15,6 +15,7 @@ namespace meshtween {
 // the mesh no further than `reach` (diagonals) straight towards itself. All of them together weigh 1 where the mesh is
 // near and `weight` where it is an edge or more away, since flat triangles miss a round surface everywhere. How much of
 // that a vertex bears is for the caller (bearable). What lies beyond an open mesh's border does not pull.
+// memory.mesh is at the positions (bring_mesh).
 std::vector<SamplePull> back_pulls(const Shell& shell, const Points& positions, const FitTarget& target, double weight,
                                    double reach, int round, RelaxMemory& memory);
 

@@ -31,8 +31,10 @@ void add_centre_pulls(const Shell& shell, const Points& positions, const FitTarg
             if (!closest.found() || on_border(target, closest.where)) return;
             place = closest.where.triangle;
             const Point normal = target.index.normals().row(place);
+            double trust = 0;
+            for (int k = 0; k < 3; ++k) trust += memory.trust[static_cast<std::size_t>(f[k])] / 3;
             pulls[before + i] = {centre, closest.position - from, normal,
-                                 weight * triangle_area(shell.rest, shell.triangles, t) / area *
+                                 trust * weight * triangle_area(shell.rest, shell.triangles, t) / area *
                                      std::max(0.0, normal.dot(facing))};
         },
         256);

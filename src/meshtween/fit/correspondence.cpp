@@ -1,6 +1,7 @@
 #include "meshtween/fit/correspondence.h"
 
 #include "meshtween/core/parallel.h"
+#include "meshtween/fit/counterpart.h"
 #include "meshtween/geometry/measure.h"
 #include "meshtween/geometry/topology.h"
 #include "meshtween/io/output.h"
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace meshtween {
 namespace {
@@ -18,11 +20,12 @@ std::size_t idx(std::ptrdiff_t i) {
 }
 
 constexpr double near_enough = 0.005; // of the diagonal: distances well under this cost no trust
+constexpr double slack = 0.001;       // of the diagonal: a vertex no further off lies on the target
 
 // From the closest of all for each vertex of the mesh.
 std::vector<ClosestPoint> closest_alike(const Mesh& mesh, const ClosestPointIndex& surface, double diagonal,
                                         std::vector<ClosestPoint> closest) {
-    constexpr double further = 1.5, slack = 0.001; // of the distance to the closest point; of the diagonal
+    constexpr double further = 1.5; // of the distance to the closest point
     const Points normals = vertex_normals(mesh.positions, mesh.triangles);
     parallel_for(
         mesh.positions.rows(),
@@ -36,19 +39,6 @@ std::vector<ClosestPoint> closest_alike(const Mesh& mesh, const ClosestPointInde
         },
         256);
     return closest;
-}
-
-// A place on an edge or a corner of the border, to within rounding.
-bool at_border(const SurfacePoint& p, const Triangles& triangles, const std::vector<char>& on_boundary) {
-    constexpr double nil = 1e-9;
-    bool inside = true, all = true;
-    for (int k = 0; k < 3; ++k) {
-        if (p.barycentric[k] <= nil)
-            inside = false;
-        else
-            all = all && on_boundary[idx(triangles(p.triangle, k))] != 0;
-    }
-    return !inside && all;
 }
 
 Points vertices_and_centres(const Mesh& mesh) {
@@ -100,15 +90,23 @@ Correspondence correspondence(const Comparison& both) {
     const Points normals = vertex_normals(fitted.positions, fitted.triangles);
     const Topology own = topology(fitted.positions.rows(), fitted.triangles);
     const Topology other = topology(target.positions.rows(), target.triangles);
+    const bool open = std::ranges::find(other.on_boundary, 1) != other.on_boundary.end();
     Correspondence map;
     find_uncovered(both, own, map);
     const std::vector<ClosestPoint> closest = closest_alike(fitted, surface, both.diagonal, both.vertices);
+    std::vector<double> counterpart;
+    if (open)
+        counterpart =
+            counterparts(fitted.positions, own.neighbours, closest, {target.triangles, other.on_boundary, surface},
+                         both.on_fitted, std::numeric_limits<double>::infinity());
     for (std::size_t i = 0; i < closest.size(); ++i) {
         const SurfacePoint& place = closest[i].where;
         map.places.push_back(place);
         map.distance.push_back(std::sqrt(closest[i].squared_distance) / both.diagonal);
         map.agreement.push_back(normals.row(static_cast<Eigen::Index>(i)).dot(surface.normals().row(place.triangle)));
-        map.border.push_back(own.on_boundary[i] == 0 && at_border(place, target.triangles, other.on_boundary) ? 1 : 0);
+        const bool ends = at_border(place, target.triangles, other.on_boundary);
+        map.border.push_back((ends && own.on_boundary[i] == 0) ||
+                             (open && map.distance.back() > slack && counterpart[i] < 0.5));
         map.trust.push_back(map.border[i] != 0 ? 0
                                                : std::max(0.0, map.agreement[i]) * falling(map.distance[i]) *
                                                      falling(map.uncovered[i]));

@@ -30,6 +30,7 @@ std::optional<Points> mended_level(TangleSearch& search, const Points& positions
         const auto cuts = static_cast<double>(new_cuts(search, positions).size());
         if (cuts <= much * static_cast<double>(search.shell.triangles.rows())) return std::nullopt;
     }
+    search.beyond = without_counterpart(search.shell, positions, search.target);
     const Tangles faults = tangles(search, positions);
     Untangled mended = untangle(search, positions, faults, pins, progress, Melting::never);
     if (mended.cancelled || mended.left.count() >= faults.count() ||

@@ -4,6 +4,7 @@
 #include "meshtween/fit/nudge.h"
 
 #include "meshtween/core/parallel.h"
+#include "meshtween/fit/counterpart.h"
 #include "meshtween/fit/cut_guard.h"
 #include "meshtween/fit/facing.h"
 #include "meshtween/fit/fan.h"
@@ -134,8 +135,10 @@ Point best_place(const Ground& ground, const std::vector<int>& sheets, const Poi
     return std::ranges::min_element(best, {}, &Best::cost)->place;
 }
 
-// The vertices of these triangles and their neighbours, in connected parts. The border stays.
-std::vector<std::vector<int>> parts_around(const Shell& shell, const std::vector<int>& triangles) {
+// The vertices of these triangles and their neighbours, in connected parts. The border stays, and what lies beyond the
+// target's.
+std::vector<std::vector<int>> parts_around(const TangleSearch& search, const std::vector<int>& triangles) {
+    const Shell& shell = search.shell;
     const Lists& neighbours = shell.topology.neighbours;
     std::vector<char> near(idx(shell.rest.rows()), 0);
     for (const int t : triangles)
@@ -144,7 +147,7 @@ std::vector<std::vector<int>> parts_around(const Shell& shell, const std::vector
             for (const int j : neighbours[shell.triangles(t, k)]) near[idx(j)] = 1;
         }
     for (std::size_t i = 0; i < near.size(); ++i)
-        if (shell.topology.on_boundary[i]) near[i] = 0;
+        if (shell.topology.on_boundary[i] || is_beyond(search, static_cast<int>(i))) near[i] = 0;
     std::vector<std::vector<int>> parts;
     for (Eigen::Index i = 0; i < shell.rest.rows(); ++i) {
         if (!near[idx(i)]) continue;
@@ -220,7 +223,7 @@ Points nudged_within(TangleSearch& search, const Points& positions, Tangles faul
     std::size_t fewest = faults.count();
     for (int round = 0, idle = 0; round < rounds.most && idle < rounds.patient && faults.count() > 0; ++round, ++idle) {
         Points now = x;
-        const std::vector<std::vector<int>> parts = parts_around(shell, faulty(faults));
+        const std::vector<std::vector<int>> parts = parts_around(search, faulty(faults));
         const std::vector<Group> groups = grouped(ground, x, parts);
         parallel_for(
             std::ssize(groups),
@@ -232,7 +235,7 @@ Points nudged_within(TangleSearch& search, const Points& positions, Tangles faul
             },
             1);
         cuts = take_back_cuts(search, parts, x, cuts, now);
-        faults.flips = watch.into(now);
+        faults.flips = without_beyond(shell.triangles, search.beyond, watch.into(now));
         if (rounds.cuts) faults.cuts = cuts.fresh;
         x = std::move(now);
         if (faults.count() >= fewest) continue;
@@ -270,13 +273,15 @@ Nudged nudge(TangleSearch& search, const Points& positions, const Tangles& befor
     if (!search.facing)
         search.facing.emplace(shell.triangles, search.target, EdgeSides::both,
                               at_first_corners(shell.triangles, places));
-    Tangles faults{search.facing->into(positions), before.cuts};
+    Tangles faults{without_beyond(shell.triangles, search.beyond, search.facing->into(positions)), before.cuts};
     const Rounds rounds = faults.count() > few_faults ? for_many : for_few;
     if (!rounds.cuts) faults.cuts.clear();
     if (faults.count() == 0) return {positions, before};
     const Region region = region_around(shell, positions, faulty(faults));
     TangleSearch near{region.shell, search.target, {}};
     if (search.known) near.known = KnownCuts{within(region, search.known->source), search.known->target};
+    if (!search.beyond.empty())
+        for (const int i : region.vertices) near.beyond.push_back(search.beyond[idx(i)]);
     faults.cuts = within(region, faults.cuts);
     for (int& t : faults.flips) t = region.triangle(t);
     const Points moved = nudged_within(near, positions(region.vertices, Eigen::all), std::move(faults), rounds,

@@ -10,6 +10,7 @@
 #include "meshtween/core/parallel.h"
 #include "meshtween/fit/back_pulls.h"
 #include "meshtween/fit/centre_pulls.h"
+#include "meshtween/fit/counterpart.h"
 #include "meshtween/geometry/measure.h"
 #include "meshtween/geometry/place_on_triangle.h"
 
@@ -25,6 +26,32 @@ using Eigen::Matrix3d;
 
 std::size_t idx(std::ptrdiff_t i) {
     return static_cast<std::size_t>(i);
+}
+
+// The closest place of the target that looks the way each vertex does. `places` are the target's triangles of the last
+// answers, or nothing, and become those of this one.
+std::vector<ClosestPoint> closest_alike(const FitTarget& target, const Points& positions, const Points& normals,
+                                        double least_cosine, double reach, std::vector<int>& places) {
+    std::vector<ClosestPoint> result(idx(positions.rows()));
+    places.resize(result.size(), -1);
+    parallel_for(
+        positions.rows(),
+        [&](std::ptrdiff_t i) {
+            int& place = places[idx(i)];
+            result[idx(i)] =
+                target.index.closest(Point(positions.row(i)), Compatible{normals.row(i), least_cosine}, reach, place);
+            if (result[idx(i)].found()) place = result[idx(i)].where.triangle;
+        },
+        256);
+    return result;
+}
+
+std::vector<double> counterparts_on(const FitTarget& target, const Topology& topology, const Points& positions,
+                                    const std::vector<ClosestPoint>& places, const ClosestPointIndex& mesh,
+                                    double reach) {
+    if (!target.border_index) return std::vector<double>(places.size(), 1.0);
+    return counterparts(positions, topology.neighbours, places,
+                        {target.triangles, target.topology.on_boundary, target.index}, mesh, reach);
 }
 
 struct Pull {
@@ -228,16 +255,28 @@ Point normal_at(const FitTarget& target, const SurfacePoint& p) {
 }
 
 bool on_border(const FitTarget& target, const SurfacePoint& p) {
-    constexpr double touching = 1e-9;
-    int inside = 0, corner = 0;
-    for (int k = 0; k < 3; ++k)
-        if (p.barycentric[k] > touching) ++inside, corner = k;
-    const auto flag = [&](int k) { return target.topology.on_boundary[idx(target.triangles(p.triangle, k))] != 0; };
-    if (inside == 3) return false;
-    if (inside == 1) return flag(corner);
-    for (int k = 0; k < 3; ++k)
-        if (p.barycentric[k] <= touching) return flag((k + 1) % 3) && flag((k + 2) % 3);
-    return false;
+    return at_border(p, target.triangles, target.topology.on_boundary);
+}
+
+std::vector<char> without_counterpart(const Shell& shell, const Points& positions, const FitTarget& target) {
+    if (!target.border_index) return {};
+    const RelaxWeights as_relaxed;
+    std::vector<int> places;
+    const std::vector<ClosestPoint> closest =
+        closest_alike(target, positions, vertex_normals(positions, shell.triangles), as_relaxed.least_cosine,
+                      as_relaxed.reach, places);
+    std::vector<char> flags;
+    const ClosestPointIndex mesh(positions, shell.triangles, MeshIs::moving);
+    for (const double trust : counterparts_on(target, shell.topology, positions, closest, mesh, as_relaxed.reach))
+        flags.push_back(trust < 0.5);
+    return flags;
+}
+
+void bring_mesh(RelaxMemory& memory, const Shell& shell, const Points& positions) {
+    if (memory.mesh)
+        memory.mesh->move(positions);
+    else
+        memory.mesh = std::make_unique<ClosestPointIndex>(positions, shell.triangles, MeshIs::moving);
 }
 
 Points relax(const ShellLevels& shells, std::size_t level, const Points& positions, const FitTarget& target,
@@ -255,17 +294,15 @@ Points relax(const ShellLevels& shells, std::size_t level, const Points& positio
     if (weights.closeness > 0) {
         const Points normals = vertex_normals(positions, shell.triangles);
         const double clinging = (1 - weights.centres) * weights.closeness;
-        memory.places.resize(idx(n), -1);
+        bring_mesh(memory, shell, positions);
+        const std::vector<ClosestPoint> closest =
+            closest_alike(target, positions, normals, weights.least_cosine, weights.reach, memory.places);
+        memory.trust = counterparts_on(target, shell.topology, positions, closest, *memory.mesh, weights.reach);
         parallel_for(
             n,
             [&](std::ptrdiff_t i) {
-                const Compatible compatible{normals.row(i), weights.least_cosine};
-                int& place = memory.places[idx(i)];
-                const ClosestPoint closest =
-                    target.index.closest(Point(positions.row(i)), compatible, weights.reach, place);
-                if (closest.found()) place = closest.where.triangle;
-                const Pull p = pull(target, closest, normals.row(i), shell.topology.on_boundary[idx(i)],
-                                    clinging * shell.area[idx(i)], weights);
+                const Pull p = pull(target, closest[idx(i)], normals.row(i), shell.topology.on_boundary[idx(i)],
+                                    memory.trust[idx(i)] * clinging * shell.area[idx(i)], weights);
                 systems[0].blocks[idx(i)] = p.block;
                 right.row(i) += p.right;
             },

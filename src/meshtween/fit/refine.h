@@ -40,6 +40,10 @@ Point normal_at(const FitTarget& target, const SurfacePoint& point);
 // True where a point lies on the target's border: what has its closest point there may have no counterpart.
 bool on_border(const FitTarget& target, const SurfacePoint& point);
 
+// Vertices of the mesh that have no counterpart (counterpart.h) on an open target, a flag each; empty where the target
+// is closed: it shows all.
+std::vector<char> without_counterpart(const Shell& shell, const Points& positions, const FitTarget& target);
+
 // A point of the mesh that belongs at a place in space.
 struct Pin {
     SurfacePoint where;
@@ -82,12 +86,16 @@ struct RelaxWeights {
 // What one round on a level leaves for the next one there; empty before the first. It changes no result. Without
 // closeness all rounds must have the same weights.
 struct RelaxMemory {
-    std::vector<int> places;                      // a vertex: the target's triangle of the last answer
-    std::vector<int> centre_places;               // a triangle: the target's triangle
-    std::vector<int> back_places;                 // a pull from the target's side: the mesh's triangle
-    std::unique_ptr<ClosestPointIndex> positions; // the mesh, where the last round found it
-    std::unique_ptr<Multigrid> pose;              // without closeness the system depends on the weights alone
+    std::vector<int> places;                 // a vertex: the target's triangle of the last answer
+    std::vector<double> trust;               // a vertex: how far that is its counterpart
+    std::vector<int> centre_places;          // a triangle: the target's triangle
+    std::vector<int> back_places;            // a pull from the target's side: the mesh's triangle
+    std::unique_ptr<ClosestPointIndex> mesh; // where the last round found it
+    std::unique_ptr<Multigrid> pose;         // without closeness the system depends on the weights alone
 };
+
+// Brings memory.mesh to these positions.
+void bring_mesh(RelaxMemory& memory, const Shell& shell, const Points& positions);
 
 // Rounds of the same kind on one level, each finding closest points and solving for the shell once.
 Points relax(const ShellLevels& shells, std::size_t level, const Points& positions, const FitTarget& target,

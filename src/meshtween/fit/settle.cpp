@@ -3,6 +3,7 @@
 #include "meshtween/fit/settle.h"
 
 #include "meshtween/core/parallel.h"
+#include "meshtween/fit/counterpart.h"
 #include "meshtween/fit/facing.h"
 #include "meshtween/geometry/measure.h"
 
@@ -33,8 +34,13 @@ std::vector<char> named_by(std::span<const Pin> pins, const Shell& shell) {
     return named;
 }
 
+// What is known of vertices beforehand, a flag each; `beyond` may be empty.
+struct Known {
+    std::vector<char> named, beyond;
+};
+
 // Brings the goals of the vertices in `asked` up to date.
-void find_goals(const Shell& shell, const Points& positions, const FitTarget& target, const std::vector<char>& named,
+void find_goals(const Shell& shell, const Points& positions, const FitTarget& target, const Known& known,
                 const SettleOptions& options, const std::vector<int>& asked, Goals& goals) {
     const Points normals = vertex_normals(positions, shell.triangles);
     const Points directions = border_directions(positions, shell.border);
@@ -53,8 +59,9 @@ void find_goals(const Shell& shell, const Points& positions, const FitTarget& ta
                     return;
                 }
             }
-            const Compatible compatible =
-                named[idx(i)] ? Compatible{} : Compatible{normals.row(i), options.least_cosine};
+            const bool named = known.named[idx(i)] != 0;
+            if (!named && !known.beyond.empty() && known.beyond[idx(i)]) return;
+            const Compatible compatible = named ? Compatible{} : Compatible{normals.row(i), options.least_cosine};
             int& hint = goals.places[idx(i)];
             const ClosestPoint closest = target.index.closest(Point(positions.row(i)), compatible, options.reach, hint);
             if (!closest.found()) return;
@@ -132,30 +139,31 @@ std::vector<int> flipped_triangles(const Points& positions, const Triangles& tri
 }
 
 Settled settle(const Shell& shell, const Points& positions, const FitTarget& target, std::span<const Pin> pins,
-               const SettleOptions& options) {
-    const std::vector<char> named = named_by(pins, shell);
+               const std::vector<char>& beyond, const SettleOptions& options) {
+    const Known known{named_by(pins, shell), beyond};
     const Eigen::Index n = positions.rows();
     Goals goals{positions, Points::Zero(n, 3), std::vector<int>(idx(n), -1)};
     std::vector<int> asked(idx(n));
     std::iota(asked.begin(), asked.end(), 0);
-    find_goals(shell, positions, target, named, options, asked, goals);
+    find_goals(shell, positions, target, known, options, asked, goals);
     Settled result;
     result.positions = guarded(shell, positions, goals, result.refused);
     FacingWatch facing(shell.triangles, target, EdgeSides::one, at_first_corners(shell.triangles, goals.places));
-    result.flipped = facing.into(result.positions);
+    const auto flips = [&](const Points& x) { return without_beyond(shell.triangles, beyond, facing.into(x)); };
+    result.flipped = flips(result.positions);
     const std::vector<int> before = result.flipped;
     Points trial = result.positions;
     std::vector<int> looking = result.flipped, refused = result.refused;
     for (int round = 0; round < options.mending_rounds && !result.flipped.empty(); ++round) {
-        const Points relaxed = relaxed_around(shell, trial, looking, 1, named);
+        const Points relaxed = relaxed_around(shell, trial, looking, 1, known.named);
         asked = std::move(refused); // those on their way, and those that moved
         for (Eigen::Index i = 0; i < n; ++i)
             if (relaxed.row(i) != trial.row(i)) asked.push_back(static_cast<int>(i));
         std::sort(asked.begin(), asked.end());
         asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
-        find_goals(shell, relaxed, target, named, options, asked, goals);
+        find_goals(shell, relaxed, target, known, options, asked, goals);
         trial = guarded(shell, relaxed, goals, refused);
-        looking = facing.into(trial);
+        looking = flips(trial);
         if (looking.size() >= result.flipped.size()) continue;
         result.flipped = looking;
         result.positions = trial;

@@ -26,9 +26,10 @@ struct Settled {
 
 // Each vertex to its closest compatible point, one that a pin names to the closest whichever way it looks, or a half, a
 // quarter, ... or none of the way there where a triangle would come to look away from the surface that it looked along
-// before. Then triangles that look into the surface are relaxed with their surroundings and set down again.
+// before. Then triangles that look into the surface are relaxed with their surroundings and set down again. What lies
+// `beyond` the target's border (without_counterpart) stays where it is.
 Settled settle(const Shell& shell, const Points& positions, const FitTarget& target, std::span<const Pin> pins = {},
-               const SettleOptions& options = {});
+               const std::vector<char>& beyond = {}, const SettleOptions& options = {});
 
 // Triangles whose normal opposes the target's at the point closest to their centre, ascending. `places`, one a vertex
 // or none, are triangles of the target that are probably near.

@@ -8,6 +8,7 @@
 #include "meshtween/core/error.h"
 #include "meshtween/core/parallel.h"
 #include "meshtween/fit/align.h"
+#include "meshtween/fit/counterpart.h"
 #include "meshtween/fit/crease.h"
 #include "meshtween/fit/lift.h"
 #include "meshtween/fit/marker_twins.h"
@@ -231,11 +232,12 @@ struct Closed {
     bool cancelled = false;
 };
 
-// From the pose on the coarsest level to the finest; `searches` are one a level. Once a level had to be mended, the
+// From the pose on the coarsest level to the finest; `searches` are one a level. Mending holds the first `held` of each
+// level's pins. Once a level had to be mended, the
 // finer ones are kept as the finest always is: they start smooth, and what would fold waits. Cancelled, it goes on to
 // the whole mesh without relaxing.
 Closed close_in(const ShellLevels& shells, std::vector<TangleSearch>& searches, Closed posed, double marker_weight,
-                const std::function<void(const Points&)>& watch, const Progress& progress) {
+                std::size_t held, const std::function<void(const Points&)>& watch, const Progress& progress) {
     const std::size_t levels = shells.levels.size();
     RelaxWeights weights;
     weights.membrane = 1e-3;
@@ -275,8 +277,8 @@ Closed close_in(const ShellLevels& shells, std::vector<TangleSearch>& searches, 
         if (k == 0) break;
         if (const double now = 0.15 + 0.75 * done / work; !result.cancelled)
             if (std::optional<Points> better =
-                    mended_level(searches[k], x, shells.pins[k], mended ? Mending::all : Mending::much,
-                                 part_of(progress, now, now))) {
+                    mended_level(searches[k], x, std::span(shells.pins[k]).first(held),
+                                 mended ? Mending::all : Mending::much, part_of(progress, now, now))) {
                 x = std::move(*better);
                 mended = true;
             }
@@ -299,7 +301,8 @@ struct Landed {
 Landed land(TangleSearch& search, std::span<const Pin> pins, const Points& x, bool on_surface, const Progress& progress,
             FitResult& result) {
     const Shell& shell = search.shell;
-    Settled settled = settle(shell, x, search.target, pins);
+    search.beyond = without_counterpart(shell, x, search.target);
+    Settled settled = settle(shell, x, search.target, pins, search.beyond);
     result.refused_steps = std::ssize(settled.refused);
     result.refused = std::move(settled.refused);
     const Tangles faults = tangles(search, settled.positions, settled.flipped);
@@ -318,7 +321,9 @@ Landed land(TangleSearch& search, std::span<const Pin> pins, const Points& x, bo
         nudged = nudge(search, up, nudged.left, pins, true, landed.places);
         landed.lift = nudged.positions - landed.positions;
     }
-    landed.left = {flipped_triangles(landed.positions + landed.lift, shell.triangles, search.target, landed.places),
+    landed.left = {without_beyond(shell.triangles, search.beyond,
+                                  flipped_triangles(landed.positions + landed.lift, shell.triangles, search.target,
+                                                    landed.places)),
                    std::move(nudged.left.cuts)};
     const std::vector<int>& flips = landed.left.flips;
     std::vector<int> seen;
@@ -393,13 +398,14 @@ FitResult surface_fit(const Mesh& source_mesh, const Mesh& target_mesh, std::spa
     for (const Shell& shell : shells.shells) searches.push_back({shell, target, {}});
     Closed closed{{}, 0, !keep_going(progress, 0.1, "posing")};
     closed.positions = articulate(shells, target);
-    closed = close_in(shells, searches, std::move(closed), options.marker_weight, watch, progress);
+    const std::size_t held = options.marker_weight > 0 ? markers.size() : 0; // of the pins: twins are guesses
+    closed = close_in(shells, searches, std::move(closed), options.marker_weight, held, watch, progress);
     result.rounds = closed.rounds;
     Points x = std::move(closed.positions);
-    const std::span<const Pin> held =
-        options.marker_weight > 0 ? std::span<const Pin>(shells.pins[0]).first(markers.size()) : std::span<const Pin>();
     Landed landed{x, Points::Zero(x.rows(), 3), {}, {}};
-    if (!closed.cancelled) landed = land(searches[0], held, x, options.on_surface, part_of(progress, 0.9, 1), result);
+    if (!closed.cancelled)
+        landed = land(searches[0], std::span(shells.pins[0]).first(held), x, options.on_surface,
+                      part_of(progress, 0.9, 1), result);
     x = std::move(landed.positions);
     for (Eigen::Index i = 0; i < x.rows(); ++i) // vertices of no triangle go where the similarity takes them
         if (shells.shells[0].topology.vertex_triangles[i].empty()) x.row(i) = rest.row(i);

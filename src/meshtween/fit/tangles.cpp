@@ -1,5 +1,6 @@
 #include "meshtween/fit/tangles.h"
 
+#include "meshtween/fit/counterpart.h"
 #include "meshtween/fit/settle.h"
 #include "meshtween/search/self_intersections.h"
 
@@ -43,6 +44,12 @@ bool at_cut(TangleSearch& search, const Points& positions, int t) {
 
 } // namespace
 
+std::vector<int> new_flips(TangleSearch& search, const Points& positions, std::vector<int> flipped) {
+    std::vector<int> flips = without_beyond(search.shell.triangles, search.beyond, std::move(flipped));
+    std::erase_if(flips, [&](int t) { return at_cut(search, positions, t); });
+    return flips;
+}
+
 Pairs all_cuts(const Points& positions, const Triangles& triangles) {
     return self_intersections(positions, triangles, least_gap);
 }
@@ -75,9 +82,7 @@ Tangles tangles(TangleSearch& search, const Points& positions) {
 }
 
 Tangles tangles(TangleSearch& search, const Points& positions, std::vector<int> flipped) {
-    Tangles result{std::move(flipped), new_cuts(search, positions)};
-    std::erase_if(result.flips, [&](int t) { return at_cut(search, positions, t); });
-    return result;
+    return {new_flips(search, positions, std::move(flipped)), new_cuts(search, positions)};
 }
 
 Pairs new_cuts(TangleSearch& search, const Points& positions, const Pairs& before, const std::vector<char>& moved) {
@@ -95,7 +100,7 @@ Tangles tangles(TangleSearch& search, const Points& positions, const Tangles& be
     Tangles fresh{flipped_triangles(positions, search.shell.triangles(numbers, Eigen::all), search.target),
                   new_cuts(search, positions, before.cuts, moved)};
     for (int& t : fresh.flips) t = numbers[idx(t)];
-    std::erase_if(fresh.flips, [&](int t) { return at_cut(search, positions, t); });
+    fresh.flips = new_flips(search, positions, std::move(fresh.flips));
     std::copy_if(before.flips.begin(), before.flips.end(), std::back_inserter(fresh.flips),
                  [&](int t) { return !moved[idx(t)]; });
     std::sort(fresh.flips.begin(), fresh.flips.end());

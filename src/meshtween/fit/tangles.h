@@ -24,8 +24,16 @@ struct TangleSearch {
     const Shell& shell;
     const FitTarget& target;
     std::optional<KnownCuts> known;
+    std::vector<char> beyond = {};          // without_counterpart
     std::optional<FacingWatch> facing = {}; // with both sides of edges
 };
+
+inline bool is_beyond(const TangleSearch& search, int vertex) {
+    return !search.beyond.empty() && search.beyond[static_cast<std::size_t>(vertex)] != 0;
+}
+
+// Of the triangles that look into the target those that count: neither beyond its border nor where it cuts itself.
+std::vector<int> new_flips(TangleSearch& search, const Points& positions, std::vector<int> flipped);
 
 // Pairs of triangles that cut each other, ascending, or come so near that they may do so in a file of floats.
 std::vector<std::array<int, 2>> all_cuts(const Points& positions, const Triangles& triangles);
@@ -43,7 +51,7 @@ std::vector<std::array<int, 2>> without_known(TangleSearch& search, const Points
                                               const std::vector<std::array<int, 2>>& cuts);
 
 struct Tangles {
-    std::vector<int> flips;               // triangles that look into the target, ascending, without those at its cuts
+    std::vector<int> flips;               // new_flips, ascending
     std::vector<std::array<int, 2>> cuts; // new_cuts
     std::size_t count() const { return flips.size() + cuts.size(); }
 };

@@ -42,8 +42,9 @@ struct Patches {
     }
 };
 
-// What lies within `rings` of a fault, in connected parts.
-Patches patches_around(const Shell& shell, const Tangles& faults, int rings) {
+// What lies within `rings` of a fault, in connected parts, without what nothing tells where to lay it.
+Patches patches_around(const TangleSearch& search, const Tangles& faults, int rings) {
+    const Shell& shell = search.shell;
     std::vector<int> ring(shell.area.size(), -1), queue;
     const auto start = [&](int t) {
         for (int k = 0; k < 3; ++k) {
@@ -57,7 +58,7 @@ Patches patches_around(const Shell& shell, const Tangles& faults, int rings) {
         for (const int j : shell.topology.neighbours[queue[k]])
             if (ring[idx(j)] < 0) ring[idx(j)] = ring[idx(queue[k])] + 1, queue.push_back(j);
     for (const int i : queue)
-        if (shell.topology.on_boundary[idx(i)]) ring[idx(i)] = -1;
+        if (shell.topology.on_boundary[idx(i)] || is_beyond(search, i)) ring[idx(i)] = -1;
     Patches patches{{}, std::vector<int>(shell.area.size(), -1)};
     for (const int seed : queue) {
         if (ring[idx(seed)] < 0 || patches.of[idx(seed)] >= 0) continue;
@@ -160,7 +161,7 @@ void mend(TangleSearch& search, Patches& patches, const Cover& cover, std::span<
 void melted(TangleSearch& search, const Cover& cover, std::span<const Pin> pins, double part, Untangled& result) {
     for (const bool any_sheet : {true, false}) {
         if (result.left.cuts.empty()) return;
-        Patches patches = patches_around(search.shell, Tangles{{}, result.left.cuts}, melted_rings);
+        Patches patches = patches_around(search, Tangles{{}, result.left.cuts}, melted_rings);
         std::ptrdiff_t cut = 0; // vertices
         for (const FoldedPatch& patch : patches.list) cut += std::ranges::count(patch.remote, 0.0);
         if (10 * cut > std::ssize(search.shell.area)) return;
@@ -188,7 +189,7 @@ void laid_out(TangleSearch& search, const Cover& cover, std::span<const Pin> pin
     for (int k = 0, idle = 0; k < tries && idle < patience && result.left.count() > 0; ++k, rings *= widening) {
         result.cancelled = !keep_going(progress, static_cast<double>(k) / tries, "untangling");
         if (result.cancelled) return;
-        Patches patches = patches_around(search.shell, result.left, static_cast<int>(rings));
+        Patches patches = patches_around(search, result.left, static_cast<int>(rings));
         for (FoldedPatch& patch : patches.list) patch.any_sheet = k % 2 == 0; // each way mends what the other does not
         const std::size_t before = result.left.count();
         mend(search, patches, cover, pins, result);

@@ -71,9 +71,12 @@ std::vector<WorstPlace> place_faults(const Mesh& source, const Mesh& fitted, con
         const auto offer = [&](PlaceFault fault, double badness, double value) {
             if (badness > f.badness) f.fault = fault, f.badness = badness, f.value = value;
         };
-        offer(map.border[i] != 0 ? PlaceFault::beyond : PlaceFault::off_target, map.distance[i] / far, map.distance[i]);
+        if (map.border[i] != 0)
+            offer(PlaceFault::beyond, std::min(1.0, map.distance[i] / far), map.distance[i]);
+        else
+            offer(PlaceFault::off_target, map.distance[i] / far, map.distance[i]);
         offer(PlaceFault::uncovered, map.uncovered[i] / far, map.uncovered[i]);
-        offer(PlaceFault::facing_away, (1 - map.agreement[i]) / turned, map.agreement[i]);
+        if (map.border[i] == 0) offer(PlaceFault::facing_away, (1 - map.agreement[i]) / turned, map.agreement[i]);
         offer(PlaceFault::stretched, std::log(factor[i]) / std::log(drawn_out), factor[i]);
     }
     return faults;
@@ -115,7 +118,7 @@ std::vector<MarkerSuggestion> suggest_markers(const Mesh& source, const Mesh& ta
         int best = -1;
         double most = 0;
         for (Eigen::Index i = 0; i < alone.size(); ++i) {
-            if (alone[i] < near_marker || apart[i] < near_suggestion) continue;
+            if (alone[i] < near_marker || apart[i] < near_suggestion || map.border[idx(i)] != 0) continue;
             const double nearest = std::min(alone[i], apart[i]);
             const double lonely = std::isfinite(nearest) ? nearest : (source.positions.row(i) - centre).norm() / size;
             const double gain = lonely * (worth_telling + std::min(faults[idx(i)].badness, 10.0));

@@ -28,7 +28,7 @@ struct WorstPlace {
 };
 
 // A fault an entry, the worst for its vertex; badness is 1 at 0.5 % of the diagonal, at a cosine of 0.5, at a factor of
-// 3. n.
+// 3. What lies beyond the target is no fault of the fit, and never worse than 1. n.
 std::vector<WorstPlace> place_faults(const Mesh& source, const Mesh& fitted, const Correspondence& map);
 
 // The worst first, no two nearer than `apart` (parts of the fitted mesh's diagonal) to each other, none with a badness
@@ -44,7 +44,7 @@ struct MarkerSuggestion {
 };
 
 // "Place your next marker here", the most useful first: bad places far from markers, then places far from all markers.
-// None is nearer than 3 % of the diagonal to a marker or than 5 % to another suggestion.
+// None is nearer than 3 % of the diagonal to a marker or than 5 % to another suggestion, and none beyond the target.
 std::vector<MarkerSuggestion> suggest_markers(const Mesh& source, const Mesh& target, const Correspondence& map,
                                               const std::vector<WorstPlace>& faults, std::span<const Marker> markers,
                                               std::size_t count = 5);

@@ -77,9 +77,11 @@ export interface FitSummary {
   }
   marker_errors: Record<string, number>
   guards: {
+    flips_left: number // without those beyond the target
     flipped: { triangle: number; at: Vec3 }[]
     cuts: { triangles: [number, number]; at: Vec3 }[]
   }
+  beyond?: { vertices: number; flipped_faces: number } // where the target ends before the mesh does
   worst: { vertex: number; fault: string; value: number; source: Vec3; fitted: Vec3 }[]
   notes?: string[]
 }

@@ -67,7 +67,7 @@ function Outcome({ fit }: { fit: FitSummary }) {
       <div class="figures">
         <Figure name="to the target" value={`${figure(quality.fitted_to_target.mean)} %`} title="Mean distance from the fitted surface to the target, percent of its size" />
         <Figure name="and back" value={`${figure(quality.target_to_fitted.mean)} %`} title="Mean distance from the target to the fitted surface: what is not covered" />
-        <Figure name="flipped" value={String(quality.flipped_faces)} title="Faces that look the wrong way" bad={quality.flipped_faces > 0} />
+        <Figure name="flipped" value={String(guards.flips_left)} title="Faces that look the wrong way" bad={guards.flips_left > 0} />
         <Figure name="cuts" value={String(quality.self_intersections)} title={`Pairs of faces that cut each other; the source has ${quality.self_intersections_source}, the target ${quality.self_intersections_target}`} bad={quality.self_intersections > quality.self_intersections_source + quality.self_intersections_target} />
       </div>
       <Choice
@@ -81,9 +81,12 @@ function Outcome({ fit }: { fit: FitSummary }) {
         ]}
         onChange={chooseHeat}
       />
-      <Places title={counted(quality.flipped_faces, guards.flipped.length, 'flipped faces')} list={guards.flipped.map((flip) => ({ text: `face ${flip.triangle}`, at: flip.at }))} />
+      <Places title={counted(guards.flips_left, guards.flipped.length, 'flipped faces')} list={guards.flipped.map((flip) => ({ text: `face ${flip.triangle}`, at: flip.at }))} />
       <Places title={counted(quality.self_intersections, guards.cuts.length, 'cuts')} list={guards.cuts.map((cut) => ({ text: cut.triangles.join(' × '), at: cut.at }))} />
       <Places title="Worst places" list={fit.worst.map((place) => ({ text: worstText(place), at: place.fitted }))} />
+      {fit.beyond && fit.beyond.vertices > 0 && (
+        <small>The target ends before {fit.beyond.vertices} vertices: nothing on it answers to them, and they follow the rest.</small>
+      )}
       {fit.notes?.map((note) => (
         <small class="warn" key={note}>
           {note}
