@@ -1,10 +1,13 @@
 // A pair of stylised heads: one sculpted body, and the space around it bulged, squeezed and turned for the other.
 #include "meshtween/geometry/isosurface.h"
 #include "meshtween/geometry/landmarks.h"
+#include "meshtween/geometry/measure.h"
 #include "meshtween/geometry/remesh.h"
 #include "meshtween/geometry/sample_makers.h"
 #include "meshtween/geometry/shapes.h"
+#include "meshtween/geometry/surface_lookup.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -130,18 +133,48 @@ Points slender_head(const Points& rest) {
     return moved;
 }
 
+constexpr double degree = std::numbers::pi / 180, nod = 8 * degree, look_aside = 22 * degree, larger = 1.06;
+const Point pivot(0, -0.55, -0.08);
+
 // Turned to its left and nodding, the base held.
 Points rugged_head(const Points& rest) {
-    constexpr double degree = std::numbers::pi / 180;
-    const Point pivot(0, -0.55, -0.08);
     Points moved(rest.rows(), 3);
     for (Eigen::Index i = 0; i < rest.rows(); ++i) {
         const double share = smooth_step(-1.0, -0.25, rest(i, 1));
         Points p(1, 3);
         p.row(0) = bulged(rest.row(i), rugged) - pivot;
-        moved.row(i) = turn(turn(p, {1, 0, 0}, 8 * degree * share), {0, 1, 0}, 22 * degree * share).row(0) + pivot;
+        moved.row(i) = turn(turn(p, {1, 0, 0}, nod * share), {0, 1, 0}, look_aside * share).row(0) + pivot;
     }
-    return 1.06 * moved;
+    return larger * moved;
+}
+
+// What a scanner in front of the rugged head has seen of it, a flag a point: the face as far as the ears, without a
+// hole in one cheek.
+std::vector<char> seen_from_front(const Points& points) {
+    const Points upright =
+        turn(turn((points / larger).rowwise() - pivot, {0, 1, 0}, -look_aside), {1, 0, 0}, -nod).rowwise() + pivot;
+    const Point hole(-0.2, -0.25, 0.25);
+    std::vector<char> seen;
+    for (const auto& p : upright.rowwise())
+        seen.push_back(p[2] > 0.05 + 0.03 * std::sin(12 * p[1]) && p[1] > -0.5 && (p - hole).norm() > 0.09);
+    return seen;
+}
+
+Mesh seen_part(const Mesh& whole) {
+    const std::vector<char> seen = seen_from_front(whole.positions);
+    std::vector<int> triangles, vertices, number(seen.size(), -1);
+    for (int t = 0; t < static_cast<int>(whole.triangles.rows()); ++t)
+        if (std::ranges::all_of(whole.triangles.row(t), [&](int i) { return seen[static_cast<std::size_t>(i)] != 0; }))
+            triangles.push_back(t);
+    Mesh part;
+    part.triangles = whole.triangles(triangles, Eigen::all);
+    for (int& i : part.triangles.reshaped()) {
+        int& own = number[static_cast<std::size_t>(i)];
+        if (own < 0) own = static_cast<int>(vertices.size()), vertices.push_back(i);
+        i = own;
+    }
+    part.positions = whole.positions(vertices, Eigen::all);
+    return part;
 }
 
 } // namespace
@@ -155,6 +188,25 @@ Sample head_sample(int subdivisions) {
          remesh(isosurface(body, other, 0.031), body, {.deviation = 0.0007, .shortest = 0.008, .longest = 0.040}),
          slender_head, rugged_head, marks.names, marks.points},
         subdivisions);
+}
+
+Sample scan_sample(int subdivisions) {
+    Sample sample = head_sample(subdivisions);
+    sample.target = seen_part(sample.target);
+    const SurfaceLookup on_part(sample.target, 0.01 * diagonal(sample.target.positions));
+    const Points nearest = on_part.closest(sample.marker_target);
+    const std::vector<char> seen = seen_from_front(sample.marker_target);
+    std::vector<int> kept;
+    std::vector<std::string> names;
+    for (Eigen::Index m = 0; m < nearest.rows(); ++m)
+        if (seen[static_cast<std::size_t>(m)] != 0 && (nearest.row(m) - sample.marker_target.row(m)).norm() < 1e-9) {
+            kept.push_back(static_cast<int>(m));
+            names.push_back(sample.marker_names[static_cast<std::size_t>(m)]);
+        }
+    sample.marker_names = names;
+    sample.marker_source = Points(sample.marker_source(kept, Eigen::all));
+    sample.marker_target = Points(nearest(kept, Eigen::all));
+    return sample;
 }
 
 } // namespace meshtween

@@ -25,6 +25,7 @@ Sample bow_pose_sample(int subdivisions);
 Sample build_sample(int subdivisions);
 Sample arms_sample(int subdivisions);
 Sample head_sample(int subdivisions);
+Sample scan_sample(int subdivisions);
 Sample torus_sample(int subdivisions);
 Sample cup_sample(int subdivisions);
 

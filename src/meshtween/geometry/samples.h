@@ -10,7 +10,7 @@
 namespace meshtween {
 
 // Source and target have different meshes (where `same_connectivity` is false), markers on both surfaces, and the
-// place on the target's surface where each source vertex belongs.
+// place on the target's surface where each source vertex belongs; of `scan`, whose target is a part, on the whole.
 struct Sample {
     std::string name, description;
     Mesh source, target;
