@@ -1,40 +1,28 @@
 #!/usr/bin/env python3
 """Fits and morphs every case of a data folder and writes the tables of docs/quality.md.
 
-    quality.py PROGRAM DATA [--ruler EVALUATE] [--only WORD] [--fit METHOD ...] [--few] [--write docs/quality.md]
+    quality.py PROGRAM DATA [--ruler EVALUATE] [--only WORD] [--fit METHOD ...] [--few] [--large] [--crossed] [--partial]
+               [--write docs/quality.md]
 
 A case is a folder with case.json, source.obj and target.obj; with markers.csv it is fitted, and with one connectivity on
 both sides every path is tried. All figures are the program's own (measure, and the report); with --ruler an independent
 program measures the same fits and the largest disagreement is told. Where a case has no truth, every third marker
 is held out of a second fit and scored (7 of an animal's 21). Cases of tools/peers.json get a table with the peers' figures
-beside ours; --few adds fits with few markers. Needs nothing but Python's standard library.
+beside ours; --few adds fits with few markers, --large ever larger meshes, --crossed pairs of shapes that no case holds,
+--partial targets of which a part is cut off. Needs nothing but Python's standard library.
 """
 import argparse
 import csv
 import json
 import os
-import subprocess
 import sys
 import tempfile
-import time
+
+from cases import markers_of, rows_of, run
+from crossed import crossed_table
+from partial import partial_table
 
 BEGIN, END = "<!-- made by ./dev quality: begin -->", "<!-- end -->"
-
-
-def run(arguments):
-    start = time.time()
-    done = subprocess.run(arguments, capture_output=True, text=True)
-    return done, time.time() - start
-
-
-def rows_of(path):
-    with open(path) as f:
-        return [r for r in csv.reader(f) if r]
-
-
-def markers_of(case):
-    path = os.path.join(case, "markers.csv")
-    return os.path.exists(path) and len(rows_of(path)) > 1
 
 
 def split(path, folder):
@@ -249,6 +237,8 @@ def main():
     ap.add_argument("--methods", nargs="+", default=["linear", "laplacian", "dual-as-printed", "dual", "rigid"])
     ap.add_argument("--few", action="store_true", help="also fit with 40, 20, 10, 5 and 0 markers")
     ap.add_argument("--large", action="store_true", help="also time fits of meshes of up to 190,000 vertices")
+    ap.add_argument("--crossed", action="store_true", help="also fit pairs made by crossing the cases' shapes")
+    ap.add_argument("--partial", action="store_true", help="also fit to targets of which a part is cut off")
     ap.add_argument("--write", help="put the tables between the marks of this page")
     a = ap.parse_args()
     cases = sorted(os.path.join(a.data, d) for d in os.listdir(a.data)
@@ -282,6 +272,16 @@ def main():
             text += ["", "### Large meshes", "", "The sample `bow`, 40 markers, with `--subdivide` 0 to 2. Memory includes reading and "
                      "measuring.", ""]
             text += large_table(a.program, folder, a.fit)
+        if a.crossed and fits:
+            text += ["", "### Pairs made by crossing", "", "Shapes of different cases, paired where their markers have the same names, and "
+                     "cases turned round. Three fits each, with marker weights 1, 0.97 and 1.03, which to the eye are the same: flips and "
+                     "cuts of all three, else their means.", ""]
+            text += crossed_table(a.program, fits, folder)
+        if a.partial and fits:
+            text += ["", "### Targets of which a part is there", "", "Of each target three fifths, cut off along an axis. *beyond*: "
+                     "vertices that the target ends before. *truth*: mean error of those whose true place is on the part, fitted to it "
+                     "and to the whole target, in percent of the whole target's diagonal. *flips*: without those beyond.", ""]
+            text += partial_table(a.program, fits, folder)
         paths = [c for c in cases if same_connectivity(c)]
         if paths:
             text += ["", "### Paths at u = 0.5: volume / edge strain in %", ""] + path_table(a.program, paths, folder, a.methods)
