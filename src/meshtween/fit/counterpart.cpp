@@ -61,8 +61,11 @@ std::vector<double> counterparts(const Points& positions, const Lists& neighbour
     };
     for (int i = 0; i < static_cast<int>(places.size()); ++i)
         if (surely[idx(i)]) reach_one(i);
-    for (std::size_t k = 0; k < reached.size(); ++k)
-        for (const int j : neighbours[reached[k]]) reach_one(j);
+    while (!reached.empty()) {
+        const auto around = neighbours[reached.back()];
+        reached.pop_back();
+        for (const int j : around) reach_one(j);
+    }
     return result;
 }
 
