@@ -19,9 +19,9 @@ struct Correspondence {
     std::vector<SurfacePoint> places; // on the target
     std::vector<double> distance;     // from the vertex to its place
     std::vector<double> agreement;    // cosine between the vertex's normal and the target's triangle's: 1 the same way
-    std::vector<char> border;         // 1: the target ends before the vertex, so that nothing there answers to it: its
-                              // place is on the target's border and the vertex not on its own, or it lies off an
-                              // open target and has no counterpart (counterpart.h)
+    // 1: the target ends before the vertex, so that nothing there answers to it. Its place is on the target's border
+    // and the vertex not on its own, or it lies off an open target and has no counterpart (counterpart.h).
+    std::vector<char> border;
     std::vector<double> uncovered; // furthest of the target's vertices and triangle centres for which this vertex
                                    // would have to answer (those closest to its triangles)
     Points uncovered_at;           // n x 3: that point of the target; the vertex itself where there is none
