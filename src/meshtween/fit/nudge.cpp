@@ -39,6 +39,7 @@ struct Rounds {
     bool wide, cuts;
 };
 constexpr Rounds for_few{100, 12, true, true}, for_many{10, 3, false, false};
+constexpr double hopeless = 0.05; // faults beside triangles: a round there takes seconds and mends next to nothing
 
 std::size_t idx(std::ptrdiff_t i) {
     return static_cast<std::size_t>(i);
@@ -274,9 +275,11 @@ Nudged nudge(TangleSearch& search, const Points& positions, const Tangles& befor
         search.facing.emplace(shell.triangles, search.target, EdgeSides::both,
                               at_first_corners(shell.triangles, places));
     Tangles faults{without_beyond(shell.triangles, search.beyond, search.facing->into(positions)), before.cuts};
-    const Rounds rounds = faults.count() > few_faults ? for_many : for_few;
+    const Rounds& rounds = faults.count() > few_faults ? for_many : for_few;
     if (!rounds.cuts) faults.cuts.clear();
-    if (faults.count() == 0) return {positions, before};
+    const double most = hopeless * static_cast<double>(shell.triangles.rows());
+    if (faults.count() == 0 || (&rounds == &for_many && static_cast<double>(faults.count()) > most))
+        return {positions, before};
     const Region region = region_around(shell, positions, faulty(faults));
     TangleSearch near{region.shell, search.target, {}};
     if (search.known) near.known = KnownCuts{within(region, search.known->source), search.known->target};
