@@ -120,6 +120,34 @@ TEST(Nudge, VerticesThatMayLeaveTheTargetTurnWhatSpansAThinSheet) {
     }
 }
 
+TEST(Nudge, StopsBetweenRoundsWithTheBestSoFar) {
+    const Mesh fine = sphere(5), mesh = sphere(2);
+    const FitTarget target = fit_target(bowl(fine.positions), fine.triangles);
+    const Points x = bowl(mesh.positions);
+    const Shell rest = shell(x, mesh.triangles);
+    TangleSearch search{rest, target, {}};
+    const Tangles before = tangles(search, x);
+    int asked = 0;
+    const Nudged once = nudge(search, x, before, {}, true, {}, [&](double, std::string_view) { return ++asked < 2; });
+    EXPECT_EQ(asked, 2);
+    EXPECT_TRUE(once.cancelled);
+    EXPECT_LT(once.left.flips.size(), before.flips.size());
+    const Nudged never = nudge(search, x, before, {}, true, {}, [](double, std::string_view) { return false; });
+    EXPECT_TRUE(never.cancelled);
+    EXPECT_EQ(never.positions, x);
+}
+
+TEST(Nudge, WhereAFitHasFailedNothingMoves) {
+    const Mesh mesh = sphere(5);
+    Points x = mesh.positions / 2;
+    for (Eigen::Index i = 0; i < x.rows(); i += 20) x.row(i) *= -1; // a vertex in twenty on the other side
+    const Shell rest = shell(mesh.positions / 2, mesh.triangles);
+    TangleSearch search{rest, ball(), {}};
+    const Tangles before = tangles(search, x);
+    ASSERT_GT(before.count(), 2000U);
+    EXPECT_EQ(nudge(search, x, before, {}).positions, x);
+}
+
 TEST(Nudge, WithoutFlipsNothingMoves) {
     const Mesh mesh = sphere(2);
     const Points on_ball = mesh.positions / 2;

@@ -34,7 +34,7 @@ double least_cosine(const FitTarget& target, const SurfacePoint& place, const Po
 
 } // namespace
 
-Facing facing(const Point& centre, const Point& area_normal, const FitTarget& target, int hint) {
+Facing facing(const Point& centre, const Point& area_normal, const FitTarget& target, int hint, double most) {
     const ClosestPoint there = target.index.closest(centre, hint);
     Facing result{there.squared_distance, 1, 0, there.where.triangle};
     const double length = area_normal.norm();
@@ -42,8 +42,11 @@ Facing facing(const Point& centre, const Point& area_normal, const FitTarget& ta
     const Point normal = area_normal / length;
     result.cosine = least_cosine(target, there.where, normal);
     if (!result.into()) return result;
-    const ClosestPoint alike = target.index.closest(centre, {normal, 0});
-    result.detour = (alike.found() ? std::sqrt(alike.squared_distance) : 1) - std::sqrt(there.squared_distance);
+    constexpr double diagonal = 1; // of the target: further than that, nothing looks the same way
+    const double distance = std::sqrt(there.squared_distance), reach = distance + most;
+    const ClosestPoint alike = target.index.closest(centre, {normal, 0}, reach);
+    const double none = reach < diagonal ? std::numeric_limits<double>::infinity() : diagonal;
+    result.detour = (alike.found() ? std::sqrt(alike.squared_distance) : none) - distance;
     return result;
 }
 

@@ -4,6 +4,7 @@
 #include "meshtween/core/mesh.h"
 #include "meshtween/fit/refine.h"
 
+#include <limits>
 #include <vector>
 
 namespace meshtween {
@@ -17,8 +18,10 @@ struct Facing {
 };
 
 // On an edge or a corner of the target, more than one of its triangles is closest, and which of them answers hangs on a
-// rounding: the least cosine of all counts. `hint` is a triangle of the target that is probably near, or -1.
-Facing facing(const Point& centre, const Point& area_normal, const FitTarget& target, int hint = -1);
+// rounding: the least cosine of all counts. `hint` is a triangle of the target that is probably near, or -1. Of a
+// detour of more than `most` it is only said that it is infinite, and sooner.
+Facing facing(const Point& centre, const Point& area_normal, const FitTarget& target, int hint = -1,
+              double most = std::numeric_limits<double>::infinity());
 
 // What counts where a triangle is closest to an edge of the target: the side that happens to answer, or both.
 enum class EdgeSides { one, both };

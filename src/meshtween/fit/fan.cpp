@@ -23,8 +23,9 @@ double squared_distance(const Pin& pin, const Sheet& s) {
     return (at - pin.target).squaredNorm();
 }
 
-// `place` is where the target answers, near the next answer.
-double wanting(const FanGround& ground, const Fan::Judged& judged, const Point& vertex, int& place) {
+// `place` is where the target answers, near the next answer. Where it is no less than `most`, any such number.
+double wanting(const FanGround& ground, const Fan::Judged& judged, const Point& vertex, int& place,
+               double most = std::numeric_limits<double>::infinity()) {
     double cost = 0;
     const Sheet own = judged.blade.with(vertex);
     const auto add = [&](const Sheet& other) {
@@ -33,7 +34,8 @@ double wanting(const FanGround& ground, const Fan::Judged& judged, const Point& 
     for (const Sheet& other : judged.sheets) add(other);
     for (const Blade& other : judged.fellows) add(other.with(vertex));
     const Point centre = (own.corners[0] + own.corners[1] + own.corners[2]) / 3;
-    const Facing there = facing(centre, own.normal, ground.target, place);
+    const double left = most - cost - fault_costs; // for the detour, at most
+    const Facing there = facing(centre, own.normal, ground.target, place, ground.unit * std::max(left, 0.0));
     place = there.place;
     if (there.into()) cost += fault_costs + there.detour / ground.unit - by_cosine * there.cosine;
     return cost + by_distance * there.squared_distance / (ground.unit * ground.unit);
@@ -121,7 +123,7 @@ double wanting(const FanGround& ground, const Fan& fan, const Point& vertex, dou
     double cost = by_distance * height * height / (ground.unit * ground.unit);
     int place = -1;
     for (std::size_t k = 0; k < fan.blades.size() && cost < most; ++k)
-        cost += wanting(ground, fan.blades[k], vertex, place);
+        cost += wanting(ground, fan.blades[k], vertex, place, most - cost);
     return cost;
 }
 

@@ -39,7 +39,6 @@ struct Rounds {
     bool wide, cuts;
 };
 constexpr Rounds for_few{100, 12, true, true}, for_many{10, 3, false, false};
-constexpr double hopeless = 0.05; // faults beside triangles: a round there takes seconds and mends next to nothing
 
 std::size_t idx(std::ptrdiff_t i) {
     return static_cast<std::size_t>(i);
@@ -213,16 +212,31 @@ std::vector<Group> grouped(const Ground& ground, const Points& x, const std::vec
     return groups;
 }
 
+// A round around so many takes seconds and mends next to none.
+bool has_failed(const Tangles& faults, const Triangles& triangles) {
+    constexpr std::size_t many = 2000;
+    constexpr double share = 0.05;
+    return faults.count() > many && static_cast<double>(faults.count()) > share * static_cast<double>(triangles.rows());
+}
+
+struct Best {
+    Points positions;
+    bool cancelled = false;
+};
+
 // Flips as FacingWatch has them.
-Points nudged_within(TangleSearch& search, const Points& positions, Tangles faults, const Rounds& rounds,
-                     std::span<const Pin> pins, bool leave) {
+Best nudged_within(TangleSearch& search, const Points& positions, Tangles faults, const Rounds& rounds,
+                   std::span<const Pin> pins, bool leave, const Progress& progress) {
     const Shell& shell = search.shell;
     FacingWatch watch(shell.triangles, search.target, EdgeSides::both);
     const Ground ground = ground_of(shell, search.target, pins, positions, faults, leave);
     Cuts cuts = cuts_of(search, positions);
-    Points best = positions, x = positions;
+    Best best{positions};
+    Points x = positions;
     std::size_t fewest = faults.count();
     for (int round = 0, idle = 0; round < rounds.most && idle < rounds.patient && faults.count() > 0; ++round, ++idle) {
+        best.cancelled = !keep_going(progress, static_cast<double>(round) / rounds.most, "mending");
+        if (best.cancelled) break;
         Points now = x;
         const std::vector<std::vector<int>> parts = parts_around(search, faulty(faults));
         const std::vector<Group> groups = grouped(ground, x, parts);
@@ -242,7 +256,7 @@ Points nudged_within(TangleSearch& search, const Points& positions, Tangles faul
         if (faults.count() >= fewest) continue;
         fewest = faults.count();
         idle = -1;
-        best = x;
+        best.positions = x;
     }
     return best;
 }
@@ -269,7 +283,7 @@ std::vector<Pin> within(const Region& region, std::span<const Pin> pins) {
 } // namespace
 
 Nudged nudge(TangleSearch& search, const Points& positions, const Tangles& before, std::span<const Pin> pins,
-             bool leave, const std::vector<int>& places) {
+             bool leave, const std::vector<int>& places, const Progress& progress) {
     const Shell& shell = search.shell;
     if (!search.facing)
         search.facing.emplace(shell.triangles, search.target, EdgeSides::both,
@@ -277,9 +291,7 @@ Nudged nudge(TangleSearch& search, const Points& positions, const Tangles& befor
     Tangles faults{without_beyond(shell.triangles, search.beyond, search.facing->into(positions)), before.cuts};
     const Rounds& rounds = faults.count() > few_faults ? for_many : for_few;
     if (!rounds.cuts) faults.cuts.clear();
-    const double most = hopeless * static_cast<double>(shell.triangles.rows());
-    if (faults.count() == 0 || (&rounds == &for_many && static_cast<double>(faults.count()) > most))
-        return {positions, before};
+    if (faults.count() == 0 || has_failed(faults, shell.triangles)) return {positions, before};
     const Region region = region_around(shell, positions, faulty(faults));
     TangleSearch near{region.shell, search.target, {}};
     if (search.known) near.known = KnownCuts{within(region, search.known->source), search.known->target};
@@ -287,11 +299,11 @@ Nudged nudge(TangleSearch& search, const Points& positions, const Tangles& befor
         for (const int i : region.vertices) near.beyond.push_back(search.beyond[idx(i)]);
     faults.cuts = within(region, faults.cuts);
     for (int& t : faults.flips) t = region.triangle(t);
-    const Points moved = nudged_within(near, positions(region.vertices, Eigen::all), std::move(faults), rounds,
-                                       within(region, pins), leave);
+    const auto [moved, cancelled] = nudged_within(near, positions(region.vertices, Eigen::all), std::move(faults),
+                                                  rounds, within(region, pins), leave, progress);
     Points best = positions;
     best(region.vertices, Eigen::all) = moved;
-    return {best, tangles(search, best, before, touched(shell, positions, best))};
+    return {best, tangles(search, best, before, touched(shell, positions, best)), cancelled};
 }
 
 } // namespace meshtween

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "meshtween/core/mesh.h"
+#include "meshtween/core/progress.h"
 #include "meshtween/fit/refine.h"
 #include "meshtween/fit/tangles.h"
 
@@ -14,6 +15,7 @@ constexpr std::size_t few_faults = 300; // of more, only what looks into the tar
 struct Nudged {
     Points positions;
     Tangles left;
+    bool cancelled = false; // the progress said so: the positions are the best so far
 };
 
 // Around the triangles that look into the target (facing_into) or cut another (before.cuts), the corners and their
@@ -22,8 +24,8 @@ struct Nudged {
 // within a fifth of an edge. Rounds go on while fewer faults are left. No triangle grows much thinner, no pin comes to
 // lie further off, and no part of the mesh cuts more than it did. `before` are the tangles of the positions; `places`,
 // a triangle of the target that is probably near for each vertex, make it faster. Nothing moves where more than one
-// triangle in twenty is at fault, and more than few_faults: that would take minutes and mend next to nothing.
+// triangle in twenty is at fault, and thousands are: that would take minutes and mend next to nothing.
 Nudged nudge(TangleSearch& search, const Points& positions, const Tangles& before, std::span<const Pin> pins,
-             bool leave = false, const std::vector<int>& places = {});
+             bool leave = false, const std::vector<int>& places = {}, const Progress& progress = {});
 
 } // namespace meshtween

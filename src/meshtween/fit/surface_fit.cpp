@@ -306,19 +306,20 @@ Landed land(TangleSearch& search, std::span<const Pin> pins, const Points& x, bo
     result.refused_steps = std::ssize(settled.refused);
     result.refused = std::move(settled.refused);
     const Tangles faults = tangles(search, settled.positions, settled.flipped);
-    const Untangled untangled = untangle(search, settled.positions, faults, pins, part_of(progress, 0, 0.5));
+    const Untangled untangled = untangle(search, settled.positions, faults, pins, part_of(progress, 0, 0.4));
     result.patches = untangled.patches;
     Nudged nudged = nudge(search, creased(search, untangled.positions, untangled.left, settled.places), untangled.left,
-                          pins, false, settled.places);
+                          pins, false, settled.places, part_of(progress, 0.4, 0.5));
     Landed landed{nudged.positions,
                   Points::Zero(x.rows(), 3),
                   std::move(settled.places),
                   {},
-                  untangled.cancelled || !keep_going(progress, 0.5, "lifting")};
+                  untangled.cancelled || nudged.cancelled || !keep_going(progress, 0.5, "lifting")};
     if (!on_surface && !landed.cancelled) {
         const Points up = without_new_cuts(search, landed.positions, nudged.left,
                                            lifted(landed.positions, shell.triangles, shell.topology, search.target));
-        nudged = nudge(search, up, nudged.left, pins, true, landed.places);
+        nudged = nudge(search, up, nudged.left, pins, true, landed.places, part_of(progress, 0.5, 1));
+        landed.cancelled = nudged.cancelled;
         landed.lift = nudged.positions - landed.positions;
     }
     landed.left = {without_beyond(shell.triangles, search.beyond,

@@ -174,9 +174,10 @@ void melted(TangleSearch& search, const Cover& cover, std::span<const Pin> pins,
 }
 
 // What is left, where it is little, by moves of single vertices: sooner done than a wider patch.
-void nudge_rest(TangleSearch& search, std::span<const Pin> pins, Untangled& result) {
+void nudge_rest(TangleSearch& search, std::span<const Pin> pins, const Progress& progress, Untangled& result) {
     if (result.left.count() == 0 || result.left.count() > few_faults) return;
-    Nudged nudged = nudge(search, result.positions, result.left, pins);
+    Nudged nudged = nudge(search, result.positions, result.left, pins, false, {}, progress);
+    result.cancelled = nudged.cancelled;
     if (nudged.left.count() >= result.left.count()) return;
     result.positions = std::move(nudged.positions);
     result.left = std::move(nudged.left);
@@ -187,13 +188,15 @@ void laid_out(TangleSearch& search, const Cover& cover, std::span<const Pin> pin
               Untangled& result) {
     double rings = least_rings;
     for (int k = 0, idle = 0; k < tries && idle < patience && result.left.count() > 0; ++k, rings *= widening) {
-        result.cancelled = !keep_going(progress, static_cast<double>(k) / tries, "untangling");
+        const double part = static_cast<double>(k) / tries;
+        result.cancelled = !keep_going(progress, part, "untangling");
         if (result.cancelled) return;
         Patches patches = patches_around(search, result.left, static_cast<int>(rings));
         for (FoldedPatch& patch : patches.list) patch.any_sheet = k % 2 == 0; // each way mends what the other does not
         const std::size_t before = result.left.count();
         mend(search, patches, cover, pins, result);
-        nudge_rest(search, pins, result);
+        nudge_rest(search, pins, part_of(progress, part + 0.5 / tries, part + 1.0 / tries), result);
+        if (result.cancelled) return;
         idle = result.left.count() < before ? 0 : idle + 1;
     }
 }
