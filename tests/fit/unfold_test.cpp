@@ -119,7 +119,7 @@ TEST(Unfolded, WhatMeltsIsDrawnOutAgainWhereTheTargetHasIt) {
     const std::vector<TargetSample> samples = target_samples(target);
     for (std::size_t k = 0; k < samples.size(); ++k)
         if (samples[k].position[2] > 0.2) patch.samples.push_back(static_cast<int>(k));
-    patch.melted = 1;
+    patch.start = PatchStart::melted;
     const Points places = unfolded(shell, mesh.positions, patch, target, samples, {});
     EXPECT_NEAR(places.col(2).maxCoeff(), mesh.positions.col(2).maxCoeff(), 0.03);
     Points now = mesh.positions;

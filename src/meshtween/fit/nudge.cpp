@@ -219,19 +219,19 @@ bool has_failed(const Tangles& faults, const Triangles& triangles) {
     return faults.count() > many && static_cast<double>(faults.count()) > share * static_cast<double>(triangles.rows());
 }
 
-struct Best {
+struct Outcome {
     Points positions;
     bool cancelled = false;
 };
 
 // Flips as FacingWatch has them.
-Best nudged_within(TangleSearch& search, const Points& positions, Tangles faults, const Rounds& rounds,
-                   std::span<const Pin> pins, bool leave, const Progress& progress) {
+Outcome nudged_within(TangleSearch& search, const Points& positions, Tangles faults, const Rounds& rounds,
+                      std::span<const Pin> pins, bool leave, const Progress& progress) {
     const Shell& shell = search.shell;
     FacingWatch watch(shell.triangles, search.target, EdgeSides::both);
     const Ground ground = ground_of(shell, search.target, pins, positions, faults, leave);
     Cuts cuts = cuts_of(search, positions);
-    Best best{positions};
+    Outcome best{positions};
     Points x = positions;
     std::size_t fewest = faults.count();
     for (int round = 0, idle = 0; round < rounds.most && idle < rounds.patient && faults.count() > 0; ++round, ++idle) {

@@ -323,13 +323,29 @@ Points relax(const ShellLevels& shells, std::size_t level, const Points& positio
     return result;
 }
 
-Points refine_positions(const ShellLevels& shells, std::size_t level, const Points& positions, bool with_scale) {
+Points refine_positions(const ShellLevels& shells, std::size_t level, const Points& positions, bool with_scale,
+                        double crushed) {
     const Shell& coarse = shells.shells[level];
     const Points& rest = shells.levels[level - 1].positions;
     const auto frames = local_frames(coarse, positions, 0, with_scale);
     Points finer(rest.rows(), 3);
     parallel_for(rest.rows(), [&](std::ptrdiff_t i) {
         const SurfacePoint& place = shells.levels[level].place[idx(i)];
+        const double left = crushed > 0 ? triangle_area(positions, coarse.triangles, place.triangle) /
+                                              triangle_area(coarse.rest, coarse.triangles, place.triangle)
+                                        : 1;
+        if (left < crushed) {
+            Point on(0, 0, 0), was(0, 0, 0);
+            Eigen::Matrix3d frame = Eigen::Matrix3d::Zero();
+            for (int k = 0; k < 3; ++k) {
+                const int c = coarse.triangles(place.triangle, k);
+                on += place.barycentric[k] * positions.row(c);
+                was += place.barycentric[k] * coarse.rest.row(c);
+                frame += place.barycentric[k] * frames[idx(c)];
+            }
+            finer.row(i) = on + std::sqrt(left) * (rest.row(i) - was) * frame.transpose();
+            return;
+        }
         Point sum(0, 0, 0);
         for (int k = 0; k < 3; ++k) {
             const int c = coarse.triangles(place.triangle, k);

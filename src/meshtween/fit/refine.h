@@ -101,7 +101,10 @@ void bring_mesh(RelaxMemory& memory, const Shell& shell, const Points& positions
 Points relax(const ShellLevels& shells, std::size_t level, const Points& positions, const FitTarget& target,
              const RelaxWeights& weights, RelaxMemory& memory);
 
-// Positions on the next finer level: each vertex goes with the frames of the places it lies on.
-Points refine_positions(const ShellLevels& shells, std::size_t level, const Points& positions, bool with_scale);
+// Positions on the next finer level: each vertex goes with the frames of the places it lies on. With `crushed` given,
+// those on triangles that have shrunk to less than that part of their area lie on them, at a height that has shrunk
+// as much: the frames would carry them far beyond.
+Points refine_positions(const ShellLevels& shells, std::size_t level, const Points& positions, bool with_scale,
+                        double crushed = 0);
 
 } // namespace meshtween

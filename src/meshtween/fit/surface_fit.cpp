@@ -40,6 +40,7 @@ struct Falling {
 constexpr Falling falling_length{0.2, 0.0015}; // of the shell: features that it follows, in diagonals
 constexpr Falling falling_slide{0.01, 1e-4};   // coarse levels keep still; the last round lets go
 constexpr int rounds_a_level = 8, finest_rounds = 7;
+constexpr double crushed = 0.2; // what a triangle has left of its area
 // Of pulls from the target's side on the coarsest level, beside 1 on the others. Which part goes to which is decided
 // there, where the mesh is stiff, and covering tells it better than closeness: a leg that clings to the belly stays
 // there.
@@ -233,9 +234,9 @@ struct Closed {
 };
 
 // From the pose on the coarsest level to the finest; `searches` are one a level. Mending holds the first `held` of each
-// level's pins. Once a level had to be mended, the
-// finer ones are kept as the finest always is: they start smooth, and what would fold waits. Cancelled, it goes on to
-// the whole mesh without relaxing.
+// level's pins. Once a level had to be mended, the finer ones are kept as the finest always is: they start smooth, and
+// what would fold waits. They are mended before they move, too, and details do not reach beyond crushed triangles.
+// Cancelled, it goes on to the whole mesh without relaxing.
 Closed close_in(const ShellLevels& shells, std::vector<TangleSearch>& searches, Closed posed, double marker_weight,
                 std::size_t held, const std::function<void(const Points&)>& watch, const Progress& progress) {
     const std::size_t levels = shells.levels.size();
@@ -275,15 +276,20 @@ Closed close_in(const ShellLevels& shells, std::vector<TangleSearch>& searches, 
         }
         weights.membrane = membrane_share(strain(shells.shells[k], x));
         if (k == 0) break;
-        if (const double now = 0.15 + 0.75 * done / work; !result.cancelled)
-            if (std::optional<Points> better =
-                    mended_level(searches[k], x, std::span(shells.pins[k]).first(held),
-                                 mended ? Mending::all : Mending::much, part_of(progress, now, now))) {
-                x = std::move(*better);
-                mended = true;
-            }
-        x = refine_positions(shells, k, x, weights.with_scale);
+        const auto mend = [&](std::size_t level) {
+            const double now = 0.15 + 0.75 * done / work;
+            if (result.cancelled) return;
+            std::optional<Points> better =
+                mended_level(searches[level], x, std::span(shells.pins[level]).first(held),
+                             mended ? Mending::all : Mending::much, part_of(progress, now, now));
+            if (!better) return;
+            x = std::move(*better);
+            mended = true;
+        };
+        mend(k);
+        x = refine_positions(shells, k, x, weights.with_scale, mended ? crushed : 0);
         if ((k == 1 || mended) && !result.cancelled) x = eased(searches[k - 1], x);
+        if (mended) mend(k - 1); // what the details of the finer level folded
     }
     return result;
 }

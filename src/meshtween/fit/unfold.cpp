@@ -3,6 +3,7 @@
 #include "meshtween/fit/unfold.h"
 
 #include "meshtween/fit/fold_energy.h"
+#include "meshtween/fit/membrane.h"
 #include "meshtween/geometry/measure.h"
 #include "meshtween/solve/lbfgs.h"
 
@@ -14,11 +15,11 @@ namespace meshtween {
 namespace {
 
 constexpr int rounds_without_pulls = 3, rounds_with_pulls = 5;
-constexpr int rounds_after_melting = 20; // with pulls: an ear that melted too is drawn out again
-constexpr int melting = 64;              // rounds of smoothing: over six edges or so, a horn's length and more
-constexpr int smoothing = 10;            // rounds, of the normals by which a vertex tells the sheet it belongs to
-constexpr double least_cosine = 0.3;     // between a vertex's look and the surface's, where it is asked for
-constexpr double near = 0.05;            // diagonals: the surface is looked for no further away
+constexpr int rounds_drawn_out = 20; // with pulls: an ear that melted too is drawn out again
+constexpr int melting = 64;          // rounds of smoothing: over six edges or so, a horn's length and more
+constexpr int smoothing = 10;        // rounds, of the normals by which a vertex tells the sheet it belongs to
+constexpr double least_cosine = 0.3; // between a vertex's look and the surface's, where it is asked for
+constexpr double near = 0.05;        // diagonals: the surface is looked for no further away
 constexpr double stay = 0.3, cover = 0.2, hold_marker = 100; // weights beside closeness
 
 std::size_t idx(std::ptrdiff_t i) {
@@ -261,12 +262,14 @@ Points unfolded(const Shell& shell, const Points& positions, const FoldedPatch& 
         energy.onto.push_back(share);
         energy.home.push_back(stay * remote * remote * share);
     }
-    if (patch.melted > 0) melt(shell, patch, positions, piece);
+    if (patch.start == PatchStart::melted) melt(shell, patch, positions, piece);
+    if (patch.start == PatchStart::membrane) piece.x = membrane(piece.x, energy.triangles, energy.free);
     const std::vector<FoldPull> markers = held_markers(shell, positions.rows(), piece, pins);
     LbfgsOptions options;
     options.first_step = 0.2 * piece.edge;
     options.longest_step = 3 * piece.edge;
-    const int rounds = rounds_without_pulls + (patch.melted > 0 ? rounds_after_melting : rounds_with_pulls);
+    const int rounds =
+        rounds_without_pulls + (patch.start == PatchStart::as_it_lies ? rounds_with_pulls : rounds_drawn_out);
     Points whole = positions, all = piece.x;
     for (int round = 0; round < rounds; ++round) {
         const int smooth = std::max(1, smoothing * (rounds - round) / rounds);

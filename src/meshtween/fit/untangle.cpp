@@ -3,11 +3,13 @@
 #include "meshtween/fit/untangle.h"
 
 #include "meshtween/core/parallel.h"
+#include "meshtween/fit/fold_patches.h"
 #include "meshtween/fit/nudge.h"
 #include "meshtween/fit/unfold.h"
 #include "meshtween/geometry/measure.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace meshtween {
@@ -18,6 +20,7 @@ constexpr int patience = 2;      // sizes that mend nothing, in a row
 constexpr int least_rings = 3;   // around a fault
 constexpr double widening = 1.4; // from one size to the next
 constexpr int melted_rings = 16; // around cuts that no size of patch mended
+constexpr std::array flattened_rings{3, 5, 8};
 
 std::size_t idx(std::ptrdiff_t i) {
     return static_cast<std::size_t>(i);
@@ -32,53 +35,6 @@ void spread(const Lists& neighbours, std::vector<double>& values, double loss) {
     values.swap(wider);
 }
 
-struct Patches {
-    std::vector<FoldedPatch> list;
-    std::vector<int> of; // a vertex: its patch or -1
-    int of_triangle(const Triangles& triangles, int t) const {
-        int patch = -1;
-        for (int k = 0; k < 3; ++k) patch = std::max(patch, of[idx(triangles(t, k))]);
-        return patch;
-    }
-};
-
-// What lies within `rings` of a fault, in connected parts, without what nothing tells where to lay it.
-Patches patches_around(const TangleSearch& search, const Tangles& faults, int rings) {
-    const Shell& shell = search.shell;
-    std::vector<int> ring(shell.area.size(), -1), queue;
-    const auto start = [&](int t) {
-        for (int k = 0; k < 3; ++k) {
-            const int i = shell.triangles(t, k);
-            if (ring[idx(i)] < 0) ring[idx(i)] = 0, queue.push_back(i);
-        }
-    };
-    for (const int t : faults.flips) start(t);
-    for (const auto& pair : faults.cuts) start(pair[0]), start(pair[1]);
-    for (std::size_t k = 0; k < queue.size() && ring[idx(queue[k])] < rings; ++k)
-        for (const int j : shell.topology.neighbours[queue[k]])
-            if (ring[idx(j)] < 0) ring[idx(j)] = ring[idx(queue[k])] + 1, queue.push_back(j);
-    for (const int i : queue)
-        if (shell.topology.on_boundary[idx(i)] || is_beyond(search, i)) ring[idx(i)] = -1;
-    Patches patches{{}, std::vector<int>(shell.area.size(), -1)};
-    for (const int seed : queue) {
-        if (ring[idx(seed)] < 0 || patches.of[idx(seed)] >= 0) continue;
-        const auto number = static_cast<int>(patches.list.size());
-        FoldedPatch patch;
-        patch.vertices.push_back(seed);
-        patches.of[idx(seed)] = number;
-        for (std::size_t k = 0; k < patch.vertices.size(); ++k)
-            for (const int j : shell.topology.neighbours[patch.vertices[k]])
-                if (ring[idx(j)] >= 0 && patches.of[idx(j)] < 0) {
-                    patches.of[idx(j)] = number;
-                    patch.vertices.push_back(j);
-                }
-        std::sort(patch.vertices.begin(), patch.vertices.end());
-        for (const int i : patch.vertices) patch.remote.push_back(static_cast<double>(ring[idx(i)]) / rings);
-        patches.list.push_back(std::move(patch));
-    }
-    return patches;
-}
-
 // The triangle of the mesh that answers for each sample, or -1.
 std::vector<int> answering(const Shell& shell, const Points& positions, const std::vector<TargetSample>& samples) {
     constexpr double reach = 0.3;
@@ -89,17 +45,6 @@ std::vector<int> answering(const Shell& shell, const Points& positions, const st
         triangle[idx(k)] = index.closest(sample.position, Compatible{sample.normal, 0}, reach).where.triangle;
     });
     return triangle;
-}
-
-std::vector<long> faults_of(const Patches& patches, const Triangles& triangles, const Tangles& faults) {
-    std::vector<long> count(patches.list.size(), 0);
-    const auto add = [&](int patch) {
-        if (patch >= 0) ++count[idx(patch)];
-    };
-    for (const int t : faults.flips) add(patches.of_triangle(triangles, t));
-    for (const auto& pair : faults.cuts)
-        add(std::max(patches.of_triangle(triangles, pair[0]), patches.of_triangle(triangles, pair[1])));
-    return count;
 }
 
 // The target as the patches share it.
@@ -114,8 +59,12 @@ void put(const FoldedPatch& patch, Points& places, Points& x) {
         x.row(patch.vertices[i]).swap(places.row(static_cast<Eigen::Index>(i)));
 }
 
+struct Mended : Untangled {
+    bool stuck = false; // nudging it moves nothing
+};
+
 // Every patch laid out anew, then those taken back that are no better.
-void mend(TangleSearch& search, Patches& patches, const Cover& cover, std::span<const Pin> pins, Untangled& result) {
+void mend(TangleSearch& search, FoldedPatches& patches, const Cover& cover, std::span<const Pin> pins, Mended& result) {
     const Shell& shell = search.shell;
     for (std::size_t k = 0; k < cover.samples.size(); ++k)
         if (cover.triangles[k] >= 0)
@@ -153,20 +102,26 @@ void mend(TangleSearch& search, Patches& patches, const Cover& cover, std::span<
     result.positions = std::move(trial);
     result.left = std::move(left);
     result.patches += better;
+    result.stuck = false;
+}
+
+// Where faults are all over the mesh, it is not a part of it that has no place.
+bool all_over(const Shell& shell, const FoldedPatches& patches) {
+    std::ptrdiff_t faulty = 0; // vertices
+    for (const FoldedPatch& patch : patches.list) faulty += std::ranges::count(patch.remote, 0.0);
+    return 10 * faulty > std::ssize(shell.area);
 }
 
 // What stands where the target has nothing, such as a cow's horns on a donkey, ends as a crumple: its layers look every
-// way, so that sliding does not take them apart. Smoothed away first, it is a small flat spot to spread. Where cuts are
-// all over the mesh, they are no crumple.
-void melted(TangleSearch& search, const Cover& cover, std::span<const Pin> pins, double part, Untangled& result) {
+// way, so that sliding does not take them apart. Smoothed away first, it is a small flat spot to spread.
+void melted(TangleSearch& search, const Cover& cover, std::span<const Pin> pins, double part, Mended& result) {
     for (const bool any_sheet : {true, false}) {
         if (result.left.cuts.empty()) return;
-        Patches patches = patches_around(search, Tangles{{}, result.left.cuts}, melted_rings);
-        std::ptrdiff_t cut = 0; // vertices
-        for (const FoldedPatch& patch : patches.list) cut += std::ranges::count(patch.remote, 0.0);
-        if (10 * cut > std::ssize(search.shell.area)) return;
+        FoldedPatches patches = patches_around(search, Tangles{{}, result.left.cuts}, melted_rings);
+        if (all_over(search.shell, patches)) return;
         for (FoldedPatch& patch : patches.list) {
             patch.any_sheet = any_sheet;
+            patch.start = PatchStart::melted;
             patch.melted = part;
         }
         mend(search, patches, cover, pins, result);
@@ -174,24 +129,25 @@ void melted(TangleSearch& search, const Cover& cover, std::span<const Pin> pins,
 }
 
 // What is left, where it is little, by moves of single vertices: sooner done than a wider patch.
-void nudge_rest(TangleSearch& search, std::span<const Pin> pins, const Progress& progress, Untangled& result) {
-    if (result.left.count() == 0 || result.left.count() > few_faults) return;
+void nudge_rest(TangleSearch& search, std::span<const Pin> pins, const Progress& progress, Mended& result) {
+    if (result.stuck || result.left.count() == 0 || result.left.count() > few_faults) return;
     Nudged nudged = nudge(search, result.positions, result.left, pins, false, {}, progress);
     result.cancelled = nudged.cancelled;
+    result.stuck = !nudged.cancelled && nudged.left.count() >= result.left.count();
     if (nudged.left.count() >= result.left.count()) return;
     result.positions = std::move(nudged.positions);
     result.left = std::move(nudged.left);
 }
 
-// Patches of growing size, as long as they mend anything.
+// FoldedPatches of growing size, as long as they mend anything.
 void laid_out(TangleSearch& search, const Cover& cover, std::span<const Pin> pins, const Progress& progress,
-              Untangled& result) {
+              Mended& result) {
     double rings = least_rings;
     for (int k = 0, idle = 0; k < tries && idle < patience && result.left.count() > 0; ++k, rings *= widening) {
         const double part = static_cast<double>(k) / tries;
         result.cancelled = !keep_going(progress, part, "untangling");
         if (result.cancelled) return;
-        Patches patches = patches_around(search, result.left, static_cast<int>(rings));
+        FoldedPatches patches = patches_around(search, result.left, static_cast<int>(rings));
         for (FoldedPatch& patch : patches.list) patch.any_sheet = k % 2 == 0; // each way mends what the other does not
         const std::size_t before = result.left.count();
         mend(search, patches, cover, pins, result);
@@ -199,6 +155,31 @@ void laid_out(TangleSearch& search, const Cover& cover, std::span<const Pin> pin
         if (result.cancelled) return;
         idle = result.left.count() < before ? 0 : idle + 1;
     }
+}
+
+// What stands up far beside its width, such as a horse's tail on a cow, leaves no place for its layers to slide apart,
+// at any size of a patch. As a membrane it has one layer from the start, and what was small there grows.
+void flattened(TangleSearch& search, const Cover& cover, std::span<const Pin> pins, const Progress& progress,
+               Mended& result) {
+    for (std::size_t k = 0; k < flattened_rings.size(); ++k)
+        for (const bool any_sheet : {true, false}) {
+            if (result.left.count() == 0 || result.cancelled) return;
+            const double part = static_cast<double>(2 * k + (any_sheet ? 0 : 1)) / (2 * flattened_rings.size());
+            result.cancelled = !keep_going(progress, part, "untangling");
+            if (result.cancelled) return;
+            FoldedPatches patches = patches_around(search, result.left, flattened_rings[k]);
+            fill_holes(search, patches);
+            if (std::ranges::any_of(patches.list, [&](const FoldedPatch& patch) {
+                    return 2 * patch.vertices.size() > search.shell.area.size();
+                }))
+                return; // what stands up is a part of the mesh
+            for (FoldedPatch& patch : patches.list) {
+                patch.start = PatchStart::membrane;
+                patch.any_sheet = any_sheet;
+            }
+            mend(search, patches, cover, pins, result);
+            nudge_rest(search, pins, part_of(progress, part, part), result);
+        }
 }
 
 // The triangles around edges where the mesh is folded by more than a right angle.
@@ -281,19 +262,19 @@ Points eased(TangleSearch& search, const Points& positions) {
 
 Untangled untangle(TangleSearch& search, const Points& positions, const Tangles& faults, std::span<const Pin> pins,
                    const Progress& progress, Melting melting) {
-    Untangled result{positions, faults};
+    Mended result{{positions, faults}};
     if (result.left.count() == 0) return result;
     Cover cover{target_samples(search.target), {}};
     cover.triangles = answering(search.shell, positions, cover.samples);
     laid_out(search, cover, pins, part_of(progress, 0, 0.3), result);
+    if (!result.cancelled) flattened(search, cover, pins, part_of(progress, 0.3, 0.5), result);
     if (result.left.cuts.empty() || result.cancelled || melting == Melting::never) return result;
-    Untangled molten = result;
+    Mended molten = result;
     const auto in_vain = [&] { return 2 * molten.left.cuts.size() > result.left.cuts.size(); };
     for (const double part : {0.5, 1.0}) {
         if (molten.left.cuts.empty() || molten.cancelled) break;
         melted(search, cover, pins, part, molten);
-        if (!in_vain())
-            laid_out(search, cover, pins, part_of(progress, 0.3 + 0.7 * (part - 0.5), 0.3 + 0.7 * part), molten);
+        if (!in_vain()) laid_out(search, cover, pins, part_of(progress, part, part + 0.5), molten);
     }
     if (!in_vain()) return molten;
     result.cancelled = molten.cancelled;
