@@ -37,7 +37,7 @@ TEST(FoldedPatches, TheSmallerSideOfARingIsItsHole) {
     Eigen::Index top = 0, bottom = 0;
     ball.mesh.positions.col(2).maxCoeff(&top);
     ball.mesh.positions.col(2).minCoeff(&bottom);
-    FoldedPatches patches = patches_around(search, {band(ball.mesh, 0.5, 0.7), {}}, 0);
+    FoldedPatches patches = patches_around(search, {band(ball.mesh, 0.5, 0.7), {}}, 1);
     ASSERT_EQ(patches.list.size(), 1U);
     EXPECT_EQ(patches.of[static_cast<std::size_t>(top)], -1);
     const std::size_t before = patches.list[0].vertices.size();
@@ -56,7 +56,7 @@ TEST(FoldedPatches, BetweenTwoPatchesIsNoHole) {
     std::vector<int> both = band(ball.mesh, 0.6, 0.75);
     const std::vector<int> below = band(ball.mesh, -0.75, -0.6);
     both.insert(both.end(), below.begin(), below.end());
-    FoldedPatches patches = patches_around(search, {both, {}}, 0);
+    FoldedPatches patches = patches_around(search, {both, {}}, 1);
     ASSERT_EQ(patches.list.size(), 2U);
     fill_holes(search, patches);
     Eigen::Index top = 0;

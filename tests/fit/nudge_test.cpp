@@ -103,11 +103,17 @@ Points bowl(const Points& ball) {
     return x;
 }
 
+// A coarse one on a fine one.
+struct Bowls {
+    Mesh fine = sphere(5), mesh = sphere(2);
+    FitTarget target = fit_target(bowl(fine.positions), fine.triangles);
+    Points x = bowl(mesh.positions);
+    Shell rest = shell(x, mesh.triangles);
+};
+
 TEST(Nudge, VerticesThatMayLeaveTheTargetTurnWhatSpansAThinSheet) {
-    const Mesh fine = sphere(5), mesh = sphere(2);
-    const FitTarget target = fit_target(bowl(fine.positions), fine.triangles);
-    const Points x = bowl(mesh.positions);
-    const Shell rest = shell(x, mesh.triangles);
+    const Bowls bowls;
+    const auto& [fine, mesh, target, x, rest] = bowls;
     TangleSearch search{rest, target, {}};
     const Tangles before = tangles(search, x);
     const Nudged on = nudge(search, x, before, {}), off = nudge(search, x, before, {}, true);
@@ -122,10 +128,8 @@ TEST(Nudge, VerticesThatMayLeaveTheTargetTurnWhatSpansAThinSheet) {
 }
 
 TEST(Nudge, StopsBetweenRoundsWithTheBestSoFar) {
-    const Mesh fine = sphere(5), mesh = sphere(2);
-    const FitTarget target = fit_target(bowl(fine.positions), fine.triangles);
-    const Points x = bowl(mesh.positions);
-    const Shell rest = shell(x, mesh.triangles);
+    const Bowls bowls;
+    const auto& [fine, mesh, target, x, rest] = bowls;
     TangleSearch search{rest, target, {}};
     const Tangles before = tangles(search, x);
     int asked = 0;

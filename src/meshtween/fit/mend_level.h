@@ -1,4 +1,4 @@
-// A coarse level that has crumpled, laid out anew before it is refined.
+// A level that has crumpled, laid out anew before it is refined, or before it moves.
 #pragma once
 
 #include "meshtween/core/progress.h"

@@ -15,12 +15,12 @@
 namespace meshtween {
 namespace {
 
-constexpr int tries = 6;         // sizes of a patch
-constexpr int patience = 2;      // sizes that mend nothing, in a row
-constexpr int least_rings = 3;   // around a fault
-constexpr double widening = 1.4; // from one size to the next
-constexpr int melted_rings = 16; // around cuts that no size of patch mended
-constexpr std::array flattened_rings{3, 5, 8};
+constexpr int tries = 6;                       // sizes of a patch
+constexpr int patience = 2;                    // sizes that mend nothing, in a row
+constexpr int least_rings = 3;                 // around a fault
+constexpr double widening = 1.4;               // from one size to the next
+constexpr int melted_rings = 16;               // around cuts that no size of patch mended
+constexpr std::array flattened_rings{3, 5, 8}; // around what no size of patch mended
 
 std::size_t idx(std::ptrdiff_t i) {
     return static_cast<std::size_t>(i);
@@ -105,20 +105,16 @@ void mend(TangleSearch& search, FoldedPatches& patches, const Cover& cover, std:
     result.stuck = false;
 }
 
-// Where faults are all over the mesh, it is not a part of it that has no place.
-bool all_over(const Shell& shell, const FoldedPatches& patches) {
-    std::ptrdiff_t faulty = 0; // vertices
-    for (const FoldedPatch& patch : patches.list) faulty += std::ranges::count(patch.remote, 0.0);
-    return 10 * faulty > std::ssize(shell.area);
-}
-
 // What stands where the target has nothing, such as a cow's horns on a donkey, ends as a crumple: its layers look every
-// way, so that sliding does not take them apart. Smoothed away first, it is a small flat spot to spread.
+// way, so that sliding does not take them apart. Smoothed away first, it is a small flat spot to spread. Where cuts are
+// all over the mesh, they are no crumple.
 void melted(TangleSearch& search, const Cover& cover, std::span<const Pin> pins, double part, Mended& result) {
     for (const bool any_sheet : {true, false}) {
         if (result.left.cuts.empty()) return;
         FoldedPatches patches = patches_around(search, Tangles{{}, result.left.cuts}, melted_rings);
-        if (all_over(search.shell, patches)) return;
+        std::ptrdiff_t cut = 0; // vertices
+        for (const FoldedPatch& patch : patches.list) cut += std::ranges::count(patch.remote, 0.0);
+        if (10 * cut > std::ssize(search.shell.area)) return;
         for (FoldedPatch& patch : patches.list) {
             patch.any_sheet = any_sheet;
             patch.start = PatchStart::melted;
@@ -139,7 +135,7 @@ void nudge_rest(TangleSearch& search, std::span<const Pin> pins, const Progress&
     result.left = std::move(nudged.left);
 }
 
-// FoldedPatches of growing size, as long as they mend anything.
+// Patches of growing size, as long as they mend anything.
 void laid_out(TangleSearch& search, const Cover& cover, std::span<const Pin> pins, const Progress& progress,
               Mended& result) {
     double rings = least_rings;
@@ -274,7 +270,7 @@ Untangled untangle(TangleSearch& search, const Points& positions, const Tangles&
     for (const double part : {0.5, 1.0}) {
         if (molten.left.cuts.empty() || molten.cancelled) break;
         melted(search, cover, pins, part, molten);
-        if (!in_vain()) laid_out(search, cover, pins, part_of(progress, part, part + 0.5), molten);
+        if (!in_vain()) laid_out(search, cover, pins, part_of(progress, 0.25 + 0.5 * part, 0.5 + 0.5 * part), molten);
     }
     if (!in_vain()) return molten;
     result.cancelled = molten.cancelled;
