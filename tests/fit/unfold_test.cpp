@@ -102,8 +102,8 @@ TEST(TargetSamples, ShareOutTheSurface) {
     EXPECT_NEAR(area, whole, 1e-9);
 }
 
-// A ball with a horn, the mesh being the target itself: smoothed flat, the horn has to come back.
-TEST(Unfolded, WhatMeltsIsDrawnOutAgainWhereTheTargetHasIt) {
+// A ball with a horn, the mesh being the target itself: with the horn spanned away, it has to come back.
+TEST(Unfolded, WhatAMembraneFlattensIsDrawnOutAgainWhereTheTargetHasIt) {
     Mesh mesh = sphere(4);
     FoldedPatch patch;
     for (Eigen::Index i = 0; i < mesh.positions.rows(); ++i) {
@@ -119,7 +119,7 @@ TEST(Unfolded, WhatMeltsIsDrawnOutAgainWhereTheTargetHasIt) {
     const std::vector<TargetSample> samples = target_samples(target);
     for (std::size_t k = 0; k < samples.size(); ++k)
         if (samples[k].position[2] > 0.2) patch.samples.push_back(static_cast<int>(k));
-    patch.start = PatchStart::melted;
+    patch.membrane = true;
     const Points places = unfolded(shell, mesh.positions, patch, target, samples, {});
     EXPECT_NEAR(places.col(2).maxCoeff(), mesh.positions.col(2).maxCoeff(), 0.03);
     Points now = mesh.positions;

@@ -71,6 +71,71 @@ TEST(Untangle, AFoldIsUndoneAndTheRestIsHeld) {
     EXPECT_EQ(tangles(search, result.positions).count(), 0u);
 }
 
+// A ball with a tail of rings of three vertices, drawn out of a triangle at the north pole to the ball's radius.
+struct TailedBall : Ball {
+    Mesh tailed;
+    Eigen::Index first = mesh.positions.rows(); // of the tail's vertices
+    double radius = mesh.positions.row(0).norm();
+    Shell tailed_shell;
+
+    explicit TailedBall(int rings) {
+        Eigen::Index base = 0;
+        const auto height = [&](int k) { return mesh.positions.col(2)(mesh.triangles.col(k)); };
+        (height(0) + height(1) + height(2)).maxCoeff(&base);
+        tailed = mesh;
+        tailed.positions.conservativeResize(first + 3 * rings, 3);
+        tailed.triangles.conservativeResize(mesh.triangles.rows() + 6 * rings, 3);
+        const Eigen::RowVector3i root = mesh.triangles.row(base);
+        Eigen::RowVector3i below = root;
+        for (int ring = 0; ring < rings; ++ring) {
+            const auto start = static_cast<int>(first) + 3 * ring;
+            const Eigen::RowVector3i above(start, start + 1, start + 2);
+            for (int k = 0, t = static_cast<int>(mesh.triangles.rows()) + 6 * ring; k < 3; ++k, t += 2) {
+                const int next = (k + 1) % 3;
+                tailed.positions.row(above[k]) = mesh.positions.row(root[k]) + Point(0, 0, radius * (ring + 1) / rings);
+                tailed.triangles.row(t) << below[k], below[next], above[next];
+                tailed.triangles.row(t + 1) << below[k], above[next], above[k];
+            }
+            below = above;
+        }
+        tailed.triangles.row(base) = below;
+        tailed_shell = meshtween::shell(tailed.positions, tailed.triangles);
+    }
+
+    // The tail shrunk to a fiftieth of its length and wound.
+    Points shrunk(double wound) const {
+        Points x = tailed.positions;
+        for (Eigen::Index i = first; i < x.rows(); ++i) {
+            const double share = (x(i, 2) - radius) / radius; // of the length
+            x(i, 2) = radius * (1 + 0.02 * share);
+            x.row(i) += wound * radius * Point(std::sin(51 * share), std::sin(39 * share), std::sin(30 * share));
+        }
+        return x;
+    }
+
+    std::size_t left_of(const Points& positions) const {
+        TangleSearch search{tailed_shell, target, {}};
+        return untangle(search, positions, tangles(search, positions), {}).left.count();
+    }
+};
+
+TEST(Untangle, ATailThatTheTargetHasNotIsLaidOut) {
+    const TailedBall ball(20);
+    const Points shrunk = ball.shrunk(0);
+    TangleSearch search{ball.tailed_shell, ball.target, {}};
+    ASSERT_GT(tangles(search, shrunk).flips.size(), 70U); // its walls
+    EXPECT_EQ(ball.left_of(shrunk), 0U);
+}
+
+// No patch of it as it lies comes undone.
+TEST(Untangle, ACrumpledTailIsLaidFlat) {
+    const TailedBall ball(60);
+    const Points crumpled = ball.shrunk(0.1);
+    TangleSearch search{ball.tailed_shell, ball.target, {}};
+    ASSERT_GT(tangles(search, crumpled).cuts.size(), 500U);
+    EXPECT_EQ(ball.left_of(crumpled), 0U);
+}
+
 TEST(Untangle, TheSameBitsForAnyNumberOfThreads) {
     const Ball ball;
     const Points folded = folded_over(ball.mesh.positions, 1.0);

@@ -32,7 +32,7 @@ std::optional<Points> mended_level(TangleSearch& search, const Points& positions
     }
     search.beyond = without_counterpart(search.shell, positions, search.target);
     const Tangles faults = tangles(search, positions);
-    Untangled mended = untangle(search, positions, faults, pins, progress, Melting::never);
+    Untangled mended = untangle(search, positions, faults, pins, progress);
     if (mended.cancelled || mended.left.count() >= faults.count() ||
         uncovered(search, mended.positions) > bearable * uncovered(search, positions))
         return std::nullopt;

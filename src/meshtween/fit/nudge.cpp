@@ -289,9 +289,10 @@ Nudged nudge(TangleSearch& search, const Points& positions, const Tangles& befor
         search.facing.emplace(shell.triangles, search.target, EdgeSides::both,
                               at_first_corners(shell.triangles, places));
     Tangles faults{without_beyond(shell.triangles, search.beyond, search.facing->into(positions)), before.cuts};
+    if (has_failed(faults, shell.triangles)) return {positions, before};
     const Rounds& rounds = faults.count() > few_faults ? for_many : for_few;
     if (!rounds.cuts) faults.cuts.clear();
-    if (faults.count() == 0 || has_failed(faults, shell.triangles)) return {positions, before};
+    if (faults.count() == 0) return {positions, before};
     const Region region = region_around(shell, positions, faulty(faults));
     TangleSearch near{region.shell, search.target, {}};
     if (search.known) near.known = KnownCuts{within(region, search.known->source), search.known->target};

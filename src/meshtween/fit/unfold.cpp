@@ -15,11 +15,12 @@ namespace meshtween {
 namespace {
 
 constexpr int rounds_without_pulls = 3, rounds_with_pulls = 5;
-constexpr int rounds_drawn_out = 20; // with pulls: an ear that melted too is drawn out again
-constexpr int melting = 64;          // rounds of smoothing: over six edges or so, a horn's length and more
+constexpr int rounds_drawn_out = 20; // with pulls, of a membrane: an ear that it has taken along comes back
 constexpr int smoothing = 10;        // rounds, of the normals by which a vertex tells the sheet it belongs to
 constexpr double least_cosine = 0.3; // between a vertex's look and the surface's, where it is asked for
 constexpr double near = 0.05;        // diagonals: the surface is looked for no further away
+constexpr double softest = 1e-2, hardest = 1e-3;
+constexpr double settled = 0.9; // of the normals under a membrane stays from round to round
 constexpr double stay = 0.3, cover = 0.2, hold_marker = 100; // weights beside closeness
 
 std::size_t idx(std::ptrdiff_t i) {
@@ -134,8 +135,9 @@ Point smooth_normal(const FitTarget& target, const SurfacePoint& where) {
     return normal.normalized();
 }
 
-// The surface under the patch: where each vertex belongs, and which way each triangle has to look.
-void find_surface(const FitTarget& target, const Points& look, bool any_sheet, Piece& piece) {
+// The surface under the patch: where each vertex belongs, and which way each triangle has to look. Of what was found
+// before, the part `kept` stays.
+void find_surface(const FitTarget& target, const Points& look, bool any_sheet, double kept, Piece& piece) {
     FoldEnergy& energy = piece.energy;
     Points normals(look.rows(), 3);
     piece.places.resize(piece.vertices.size(), -1);
@@ -153,7 +155,9 @@ void find_surface(const FitTarget& target, const Points& look, bool any_sheet, P
     for (Eigen::Index t = 0; t < energy.triangles.rows(); ++t) {
         const auto f = energy.triangles.row(t);
         const Point sum = normals.row(f[0]) + normals.row(f[1]) + normals.row(f[2]);
-        energy.outward[idx(t)] = sum.norm() > 0 ? Point(sum.normalized()) : Point(normals.row(f[0]));
+        const Point now = sum.norm() > 0 ? Point(sum.normalized()) : Point(normals.row(f[0]));
+        Point& outward = energy.outward[idx(t)];
+        outward = (kept * outward + (1 - kept) * now).normalized();
     }
 }
 
@@ -188,22 +192,6 @@ std::vector<FoldPull> held_markers(const Shell& shell, Eigen::Index count, const
                         hold_marker / (piece.edge * piece.edge) / static_cast<double>(piece.energy.triangles.rows())});
     }
     return held;
-}
-
-// Vertices go halfway to the mean of their neighbours, the less the further from the fault.
-void melt(const Shell& shell, const FoldedPatch& patch, Points positions, Piece& piece) {
-    const Eigen::Index free = piece.energy.free;
-    for (int round = 0; round < melting; ++round) {
-        for (Eigen::Index i = 0; i < free; ++i) {
-            const auto list = shell.topology.neighbours[piece.vertices[idx(i)]];
-            Point mean(0, 0, 0);
-            for (const int j : list) mean += positions.row(j);
-            mean /= static_cast<double>(list.size());
-            const double share = std::max(0.0, 1 - patch.remote[idx(i)] / patch.melted);
-            piece.x.row(i) += share / 2 * (mean - piece.x.row(i));
-        }
-        for (Eigen::Index i = 0; i < free; ++i) positions.row(piece.vertices[idx(i)]) = piece.x.row(i);
-    }
 }
 
 // The patch onto the surface, each step halved, then refused, where it would crush a triangle: outside a sharp corner
@@ -254,7 +242,7 @@ Points unfolded(const Shell& shell, const Points& positions, const FoldedPatch& 
     Piece piece = piece_of(shell, positions, patch);
     FoldEnergy& energy = piece.energy;
     const double unit = 1 / (piece.edge * piece.edge);
-    energy.outward.resize(energy.share.size());
+    energy.outward.assign(energy.share.size(), Point(0, 0, 0));
     energy.planes.resize(idx(energy.free)), energy.normals.resize(idx(energy.free));
     for (Eigen::Index i = 0; i < energy.free; ++i) {
         const double remote = patch.remote[idx(i)], share = piece.vertex_share[idx(i)] * unit;
@@ -262,23 +250,26 @@ Points unfolded(const Shell& shell, const Points& positions, const FoldedPatch& 
         energy.onto.push_back(share);
         energy.home.push_back(stay * remote * remote * share);
     }
-    if (patch.start == PatchStart::melted) melt(shell, patch, positions, piece);
-    if (patch.start == PatchStart::membrane) piece.x = membrane(piece.x, energy.triangles, energy.free);
+    if (patch.membrane) piece.x = membrane(piece.x, energy.triangles, energy.free);
     const std::vector<FoldPull> markers = held_markers(shell, positions.rows(), piece, pins);
     LbfgsOptions options;
     options.first_step = 0.2 * piece.edge;
     options.longest_step = 3 * piece.edge;
-    const int rounds =
-        rounds_without_pulls + (patch.start == PatchStart::as_it_lies ? rounds_with_pulls : rounds_drawn_out);
+    const int rounds = rounds_without_pulls + (patch.membrane ? rounds_drawn_out : rounds_with_pulls);
+    // A membrane has one layer, so that what was found under it is right from the start, and need not jump from one
+    // side of a thin part of the target to the other.
+    const double kept = patch.membrane ? settled : 0;
     Points whole = positions, all = piece.x;
     for (int round = 0; round < rounds; ++round) {
         const int smooth = std::max(1, smoothing * (rounds - round) / rounds);
         energy.sliding = round < rounds_without_pulls;
-        find_surface(target, looks(shell, whole, piece, smooth), patch.any_sheet && energy.sliding, piece);
+        find_surface(target, looks(shell, whole, piece, smooth), patch.any_sheet && energy.sliding, kept, piece);
         energy.pulls = markers;
         if (!energy.sliding) add_pulls(patch, samples, piece);
-        const double least = std::min(0.0, least_stretch(energy, piece.x));
-        energy.softness = least_stretch(energy, piece.x) > 0.05 ? 1e-3 : 1e-2 + 0.2 * -least;
+        // What has shrunk to nothing grows only once that costs more than what makes room for it.
+        const double least = least_stretch(energy, piece.x), part = static_cast<double>(round) / rounds;
+        energy.softness =
+            least > 0.05 ? hardest : softest * std::pow(hardest / softest, part) + 0.2 * std::max(0.0, -least);
         piece.x.topRows(energy.free) = lbfgs(
             piece.x.topRows(energy.free),
             [&](const Points& moved, Points& gradient) {

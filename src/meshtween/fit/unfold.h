@@ -16,17 +16,12 @@ struct TargetSample {
 };
 std::vector<TargetSample> target_samples(const FitTarget& target); // its vertices and the middles of its triangles
 
-// Melted: smoothed first, so that what stands up there melts. Membrane: spanned over the rim first, so that there is
-// one layer. Either way what is uncovered of the target draws the patch out again.
-enum class PatchStart { as_it_lies, melted, membrane };
-
 struct FoldedPatch {
     std::vector<int> vertices;  // that may move, ascending; none is on the mesh's border
     std::vector<double> remote; // one each, 0 at the fault to 1 at the patch's rim: how firmly it stays where it is
     std::vector<int> samples;   // of the target, for which the patch answers
     bool any_sheet = true;      // at first every vertex takes the nearest surface, whichever way it looks there
-    PatchStart start = PatchStart::as_it_lies;
-    double melted = 1; // the part of `remote` within which it is smoothed
+    bool membrane = false;      // it is spanned over the rim first: one layer, drawn out again by what is uncovered
 };
 
 // Where the patch's vertices go, a row each; all others hold. Markers inside the patch are drawn to their targets.

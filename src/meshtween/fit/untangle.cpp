@@ -19,7 +19,6 @@ constexpr int tries = 6;                       // sizes of a patch
 constexpr int patience = 2;                    // sizes that mend nothing, in a row
 constexpr int least_rings = 3;                 // around a fault
 constexpr double widening = 1.4;               // from one size to the next
-constexpr int melted_rings = 16;               // around cuts that no size of patch mended
 constexpr std::array flattened_rings{3, 5, 8}; // around what no size of patch mended
 
 std::size_t idx(std::ptrdiff_t i) {
@@ -105,25 +104,6 @@ void mend(TangleSearch& search, FoldedPatches& patches, const Cover& cover, std:
     result.stuck = false;
 }
 
-// What stands where the target has nothing, such as a cow's horns on a donkey, ends as a crumple: its layers look every
-// way, so that sliding does not take them apart. Smoothed away first, it is a small flat spot to spread. Where cuts are
-// all over the mesh, they are no crumple.
-void melted(TangleSearch& search, const Cover& cover, std::span<const Pin> pins, double part, Mended& result) {
-    for (const bool any_sheet : {true, false}) {
-        if (result.left.cuts.empty()) return;
-        FoldedPatches patches = patches_around(search, Tangles{{}, result.left.cuts}, melted_rings);
-        std::ptrdiff_t cut = 0; // vertices
-        for (const FoldedPatch& patch : patches.list) cut += std::ranges::count(patch.remote, 0.0);
-        if (10 * cut > std::ssize(search.shell.area)) return;
-        for (FoldedPatch& patch : patches.list) {
-            patch.any_sheet = any_sheet;
-            patch.start = PatchStart::melted;
-            patch.melted = part;
-        }
-        mend(search, patches, cover, pins, result);
-    }
-}
-
 // What is left, where it is little, by moves of single vertices: sooner done than a wider patch.
 void nudge_rest(TangleSearch& search, std::span<const Pin> pins, const Progress& progress, Mended& result) {
     if (result.stuck || result.left.count() == 0 || result.left.count() > few_faults) return;
@@ -170,7 +150,7 @@ void flattened(TangleSearch& search, const Cover& cover, std::span<const Pin> pi
                 }))
                 return; // what stands up is a part of the mesh
             for (FoldedPatch& patch : patches.list) {
-                patch.start = PatchStart::membrane;
+                patch.membrane = true;
                 patch.any_sheet = any_sheet;
             }
             mend(search, patches, cover, pins, result);
@@ -257,24 +237,14 @@ Points eased(TangleSearch& search, const Points& positions) {
 }
 
 Untangled untangle(TangleSearch& search, const Points& positions, const Tangles& faults, std::span<const Pin> pins,
-                   const Progress& progress, Melting melting) {
+                   const Progress& progress) {
     Mended result{{positions, faults}};
     if (result.left.count() == 0) return result;
     Cover cover{target_samples(search.target), {}};
     cover.triangles = answering(search.shell, positions, cover.samples);
-    laid_out(search, cover, pins, part_of(progress, 0, 0.3), result);
-    if (!result.cancelled) flattened(search, cover, pins, part_of(progress, 0.3, 0.5), result);
-    if (result.left.cuts.empty() || result.cancelled || melting == Melting::never) return result;
-    Mended molten = result;
-    const auto in_vain = [&] { return 2 * molten.left.cuts.size() > result.left.cuts.size(); };
-    for (const double part : {0.5, 1.0}) {
-        if (molten.left.cuts.empty() || molten.cancelled) break;
-        melted(search, cover, pins, part, molten);
-        if (!in_vain()) laid_out(search, cover, pins, part_of(progress, 0.25 + 0.5 * part, 0.5 + 0.5 * part), molten);
-    }
-    if (!in_vain()) return molten;
-    result.cancelled = molten.cancelled;
-    return result; // melting costs some of the form, and is worth it where it mends
+    laid_out(search, cover, pins, part_of(progress, 0, 0.5), result);
+    if (!result.cancelled) flattened(search, cover, pins, part_of(progress, 0.5, 1), result);
+    return result;
 }
 
 } // namespace meshtween

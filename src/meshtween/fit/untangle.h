@@ -27,15 +27,11 @@ struct Untangled {
     bool cancelled = false; // the progress said so: the positions are the best so far
 };
 
-// What smooths away the form around cuts that do not go otherwise.
-enum class Melting { never, at_last };
-
 // Each connected patch of `faults` (all that tangles() finds) and the rings around it are laid out anew (unfolded) with
 // all else held; where that leaves fewer faults it is kept. What is left, if it is little, is nudged, then a wider
-// patch is tried. What is left after that starts as a membrane over the patch's rim. Where cuts are left in the end,
-// what is around them is smoothed first, unless never, and all is tried once more. A mesh without faults comes back as
-// it was.
+// patch is tried. What is left after that starts as a membrane over the patch's rim. A mesh without faults comes
+// back as it was.
 Untangled untangle(TangleSearch& search, const Points& positions, const Tangles& faults, std::span<const Pin> pins,
-                   const Progress& progress = {}, Melting melting = Melting::at_last);
+                   const Progress& progress = {});
 
 } // namespace meshtween
