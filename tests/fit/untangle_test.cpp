@@ -155,7 +155,10 @@ TEST(Untangle, WhatCannotBeMendedIsToldAndLeftAsItIs) {
     strip.triangles.resize(6, 3);
     strip.triangles << 0, 2, 1, 1, 2, 3, 2, 4, 3, 3, 4, 5, 4, 6, 5, 5, 6, 7;
     Points flat = strip.positions;
-    for (Eigen::Index i = 0; i < 8; ++i) flat.row(i) << static_cast<double>(i / 2), i % 2, 0; // not cut at rest
+    for (Eigen::Index i = 0; i < 8; ++i) { // not cut at rest
+        const Eigen::Index across = i % 2, along = i / 2;
+        flat.row(i) = Eigen::RowVector<Eigen::Index, 3>(along, across, 0).cast<double>();
+    }
     const Shell rest = shell(flat / diagonal(flat), strip.triangles);
     const Mesh ball = sphere(3);
     const FitTarget target = fit_target(ball.positions, ball.triangles);

@@ -77,7 +77,7 @@ Piece piece_of(const Shell& shell, const Points& positions, const FoldedPatch& p
     std::erase_if(triangles, [&](int t) {
         Eigen::Matrix2d edges;
         if (!planar_edges(shell.rest, shell.triangles, t, edges)) return true;
-        piece.energy.inverse.push_back(edges.inverse());
+        piece.energy.inverse.emplace_back(edges.inverse());
         return false;
     });
     piece.energy.triangles.resize(std::ssize(triangles), 3);
@@ -246,7 +246,7 @@ Points unfolded(const Shell& shell, const Points& positions, const FoldedPatch& 
     energy.planes.resize(idx(energy.free)), energy.normals.resize(idx(energy.free));
     for (Eigen::Index i = 0; i < energy.free; ++i) {
         const double remote = patch.remote[idx(i)], share = piece.vertex_share[idx(i)] * unit;
-        energy.homes.push_back(piece.x.row(i));
+        energy.homes.emplace_back(piece.x.row(i));
         energy.onto.push_back(share);
         energy.home.push_back(stay * remote * remote * share);
     }
