@@ -212,7 +212,7 @@ std::vector<Group> grouped(const Ground& ground, const Points& x, const std::vec
     return groups;
 }
 
-// A round around so many takes seconds and mends next to none.
+// Of a fit with so many faults, cuts among them, a round takes seconds and mends a few flips at most.
 bool has_failed(const Tangles& faults, const Triangles& triangles) {
     constexpr std::size_t many = 2000;
     constexpr double share = 0.05;
