@@ -5,6 +5,7 @@
 #include "meshtween/core/error.h"
 #include "meshtween/core/parallel.h"
 #include "meshtween/geometry/check.h"
+#include "meshtween/io/mesh_file.h"
 #include "meshtween/io/mesh_io.h"
 #include "meshtween/io/output.h"
 
@@ -22,6 +23,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 namespace {
 
 std::vector<Finding> require_usable(const Mesh& mesh, const std::string& path, Console& console) {
+    if (mesh.file) console.warn(path + ": ", mesh.file->notes);
     std::vector<Finding> findings = check(mesh);
     for (const Finding& finding : findings) {
         if (finding.severity == Severity::error)

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include <memory>
 #include <string>
 
 namespace meshtween {
@@ -13,6 +14,8 @@ using Triangles = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;   // m
 using Texcoords = Eigen::Matrix<float, Eigen::Dynamic, 2, Eigen::RowMajor>; // k x 2, v upwards as in OBJ
 using Colors = Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor>;    // n x 4, RGBA in 0..1
 
+struct MeshFile; // io/mesh_file.h
+
 // A triangle mesh. Vertex order and count are those of the file it came from, always.
 struct Mesh {
     Points positions;
@@ -20,6 +23,9 @@ struct Mesh {
     Texcoords texcoords;          // empty where the file has none
     Triangles texcoord_triangles; // m x 3 indices into texcoords, a corner each (seams need them); empty with texcoords
     Colors colors;                // a row a vertex; empty where the file has none
+    // What the file holds besides: polygons, groups, materials, its own bytes. It describes the triangles and attributes
+    // above, not the positions; who changes those drops it. Null where no file gave the mesh.
+    std::shared_ptr<const MeshFile> file = {};
 };
 
 // A point on a mesh: a triangle and its barycentric coordinates (they add up to 1).

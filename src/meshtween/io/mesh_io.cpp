@@ -49,10 +49,13 @@ PolygonMesh read_polygons(const fs::path& path) {
     std::error_code ignored;
     if (fs::is_directory(path, ignored)) read_whole(path); // which says so
     const Format& format = format_of(path);
-    const std::string bytes = read_whole(path);
+    std::string bytes = read_whole(path);
     if (bytes.empty()) bad_file(path, "the file is empty; export the model again");
     PolygonMesh polygons = format.read(bytes, path);
     require_sound(polygons, path);
+    polygons.file.path = path;
+    polygons.file.format = format.extension;
+    polygons.file.bytes = std::move(bytes);
     return polygons;
 }
 

@@ -183,6 +183,11 @@ Mesh cut_mesh(PolygonMesh&& polygons, const Triangles& cut) {
     mesh.positions = Eigen::Map<const Points>(polygons.coordinates.data(), rows, 3);
     mesh.triangles = cut.unaryExpr([&](int corner) { return polygons.corners[static_cast<std::size_t>(corner)]; });
     if (!polygons.colors.empty()) mesh.colors = Eigen::Map<const Colors>(polygons.colors.data(), rows, 4);
+    MeshFile file = std::move(polygons.file);
+    file.corners = std::move(polygons.corners);
+    file.ends = std::move(polygons.ends);
+    file.cut = cut;
+    mesh.file = std::make_shared<const MeshFile>(std::move(file));
     if (polygons.texcoord_corners.empty()) return mesh;
     // Corners without a texture coordinate share one more, at the origin.
     const int none = static_cast<int>(polygons.texcoords.size() / 2);

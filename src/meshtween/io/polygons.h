@@ -2,6 +2,7 @@
 #pragma once
 
 #include "meshtween/core/mesh.h"
+#include "meshtween/io/mesh_file.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -17,6 +18,7 @@ struct PolygonMesh {
     std::vector<float> texcoords;      // u v each
     std::vector<int> texcoord_corners; // beside each corner its index into texcoords, -1 for none; or empty
     std::vector<float> colors;         // r g b a a vertex; or empty
+    MeshFile file;                     // what else the reader found; cut_mesh adds the polygons
 
     void end_polygon() { // more corners than an int can count are refused by require_sound
         ends.push_back(static_cast<int>(std::min<std::size_t>(corners.size(), std::numeric_limits<int>::max())));

@@ -1,0 +1,70 @@
+// What a mesh's file holds beside the shape. It travels with the mesh from reading to writing, so that people get their
+// polygons, groups, materials and all else back.
+#pragma once
+
+#include "meshtween/core/mesh.h"
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace meshtween {
+
+// A picture: its bytes where the mesh's file holds it, else the file where it lies.
+struct Image {
+    std::string name;
+    std::string mime;  // "image/png", "image/jpeg"; empty where it is not known
+    std::string bytes; // encoded; empty where the picture is a file of its own
+    std::filesystem::path path;
+};
+
+struct Material {
+    std::string name;
+    std::array<float, 4> base_color{1, 1, 1, 1}; // linear RGBA, multiplies the texture
+    float metallic = 0;
+    float roughness = 0.6F;
+    bool double_sided = true;
+    int base_color_image = -1; // of MeshFile::images; -1: none
+};
+
+// One name for each polygon: names[of[polygon]], or none where of[polygon] is -1. Both are empty where the file has none.
+struct PolygonNames {
+    std::vector<std::string> names;
+    std::vector<int> of;
+};
+
+// A further set of texture coordinates; the first set is the mesh's own.
+struct TexcoordSet {
+    std::string name;
+    Texcoords texcoords;
+    std::vector<int> corners; // beside MeshFile::corners: a row of texcoords, or -1
+};
+
+// Indices are those of the mesh's vertices; a corner is a place in `corners`.
+struct MeshFile {
+    std::filesystem::path path;
+    std::string format; // the extension in lower case: ".obj"
+    std::string bytes;  // the file, for writing the same format again
+
+    std::vector<int> corners; // vertices, polygon after polygon
+    std::vector<int> ends;    // a polygon: where its corners end
+    Triangles cut;            // beside the mesh's triangles: their corners
+
+    Points normals;                  // as the file had them, unit length or not
+    std::vector<int> normal_corners; // beside corners: a row of normals, or -1; empty with normals
+    std::vector<TexcoordSet> more_texcoords;
+
+    PolygonNames objects, groups, smoothing; // smoothing: "1", "off"
+    std::vector<Material> materials;
+    std::vector<int> polygon_materials; // a polygon: its material, or -1; empty where the file has none
+    std::vector<Image> images;
+    std::vector<std::string> material_libraries; // OBJ's mtllib, as written
+
+    std::vector<std::string> notes; // what was passed over, counted or decided while reading; sentences for people
+};
+
+// The polygon of each of the mesh's triangles. m numbers.
+std::vector<int> polygon_of_triangles(const MeshFile& file);
+
+} // namespace meshtween
