@@ -4,6 +4,7 @@
 #include "meshtween/fit/correspondence.h"
 #include "meshtween/fit/transfer.h"
 #include "meshtween/geometry/measure.h"
+#include "meshtween/io/marker_write.h"
 #include "meshtween/io/table.h"
 
 #include <fmt/format.h>
@@ -78,15 +79,15 @@ void transfer_values(const Arguments& a, const Sides& sides, const std::vector<S
 }
 
 void transfer_points(const Arguments& a, const Sides& sides, Console& console) {
-    const MarkerPairs given = read_marker_pairs(a.points, a.points, sides.giver.rest, sides.giver.rest);
-    Points points(std::ssize(given.pairs), 3);
-    for (std::size_t i = 0; i < given.pairs.size(); ++i)
-        points.row(static_cast<Eigen::Index>(i)) = given.pairs[i].source;
+    Landmarks given = read_landmarks(a.points, sides.giver.rest);
+    console.warn("", given.notes);
+    std::erase_if(given.points, [](const Landmark& point) { return !point.position; });
+    Points points(std::ssize(given.points), 3);
+    for (Eigen::Index i = 0; i < points.rows(); ++i)
+        points.row(i) = *given.points[static_cast<std::size_t>(i)].position;
     const Points moved = carried_points(points, sides.giver, sides.receiver);
-    std::vector<Landmark> landmarks;
-    for (std::size_t i = 0; i < given.pairs.size(); ++i)
-        landmarks.push_back({given.pairs[i].name, moved.row(static_cast<Eigen::Index>(i))});
-    write_landmarks(landmarks, a.points_out);
+    for (Eigen::Index i = 0; i < points.rows(); ++i) given.points[static_cast<std::size_t>(i)].position = moved.row(i);
+    console.warn("", write_landmarks(given.points, a.points_out, &sides.receiver.rest));
     console.note("wrote " + a.points_out);
 }
 

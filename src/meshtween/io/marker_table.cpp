@@ -151,15 +151,6 @@ void write_marker_pairs(const std::vector<MarkerPair>& pairs, const std::filesys
     });
 }
 
-void write_landmarks(const std::vector<Landmark>& landmarks, const std::filesystem::path& path) {
-    write_whole(path, [&](std::ostream& stream) {
-        TextOut out(stream);
-        out.put("name,x,y,z\n");
-        for (const Landmark& l : landmarks)
-            out.put("{},{},{},{}\n", quoted(l.name), l.position[0], l.position[1], l.position[2]);
-    });
-}
-
 Points read_points(const std::filesystem::path& path) {
     const std::string bytes = read_whole(path);
     if (bytes.empty()) bad_file(path, "the file is empty");

@@ -160,6 +160,17 @@ MarkerPairs read_marker_pairs(const fs::path& path, const Mesh& source, const Me
     return finish(std::move(collector), source, target, path);
 }
 
+Landmarks read_landmarks(const fs::path& path, const Mesh& mesh) {
+    const MarkerFile file = read_marker_file(path);
+    if (file.sides == 2) bad_file(path, "holds both sides of pairs; a list of points of one side is needed here");
+    refuse_repeated_names(file, path);
+    Landmarks result;
+    for (const MarkerRow& row : file.rows)
+        result.points.push_back({row.name.empty() ? std::to_string(result.points.size() + 1) : row.name,
+                                 resolve(row.places[0], mesh, path, row)});
+    return result;
+}
+
 MarkerPairs read_marker_pairs(const fs::path& source_path, const fs::path& target_path, const Mesh& source,
                               const Mesh& target) {
     const MarkerFile a = read_marker_file(source_path), b = read_marker_file(target_path);

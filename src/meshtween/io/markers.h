@@ -5,6 +5,7 @@
 #include "meshtween/core/mesh.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,11 +35,19 @@ MarkerPairs read_marker_pairs(const std::filesystem::path& source_path, const st
 
 void write_marker_pairs(const std::vector<MarkerPair>& pairs, const std::filesystem::path& path); // our CSV
 
+// A named point of one side; no position where it is missing.
 struct Landmark {
     std::string name;
-    Point position{0, 0, 0};
+    std::optional<Point> position;
 };
-void write_landmarks(const std::vector<Landmark>& landmarks, const std::filesystem::path& path); // CSV of name,x,y,z
+
+struct Landmarks {
+    std::vector<Landmark> points;   // in the file's order, missing ones too
+    std::vector<std::string> notes; // as those of pairs
+};
+
+// A file of one side on or near a mesh, in any of the formats. Throws as read_marker_pairs.
+Landmarks read_landmarks(const std::filesystem::path& path, const Mesh& mesh);
 
 // Rows x,y,z under an optional header, n x 3: a known correspondence, a row a vertex.
 Points read_points(const std::filesystem::path& path);
