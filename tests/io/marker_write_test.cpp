@@ -42,7 +42,9 @@ protected:
             if (!place && !missing) continue;
             ASSERT_LT(at, side.size()) << what;
             const Json& entry = side[at++];
-            if (names) EXPECT_EQ(entry[0], pair.name) << what;
+            if (names) {
+                EXPECT_EQ(entry[0], pair.name) << what;
+            }
             ASSERT_EQ(entry[1].is_null(), !place) << what;
             for (int k = 0; place && k < 3; ++k)
                 EXPECT_NEAR(entry[1][static_cast<std::size_t>(k)].get<double>(), (*place)[k], missing ? 0 : 1e-15)

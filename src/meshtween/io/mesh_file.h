@@ -12,7 +12,7 @@
 namespace meshtween {
 
 // A picture: its bytes where the mesh's file holds it, else the file where it lies.
-struct Image {
+struct TextureImage {
     std::string name;
     std::string mime;  // "image/png", "image/jpeg"; empty where it is not known
     std::string bytes; // encoded; empty where the picture is a file of its own
@@ -58,7 +58,7 @@ struct MeshFile {
     PolygonNames objects, groups, smoothing; // smoothing: "1", "off"
     std::vector<Material> materials;
     std::vector<int> polygon_materials; // a polygon: its material, or -1; empty where the file has none
-    std::vector<Image> images;
+    std::vector<TextureImage> images;
     std::vector<std::string> material_libraries; // OBJ's mtllib, as written
 
     std::vector<std::string> notes; // what was passed over, counted or decided while reading; sentences for people
