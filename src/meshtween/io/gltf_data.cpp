@@ -1,16 +1,18 @@
-// glTF 2.0 specification (Khronos, 2021): 3.6 binary data, 4 the GLB container. Read over a JSON library alone, since a
-// mesh needs neither pictures nor a loader that decodes them.
+// glTF 2.0 specification (Khronos, 2021): 3.6.2 accessors; KHR_draco_mesh_compression, EXT_meshopt_compression.
 #include "meshtween/io/gltf_data.h"
 
-#include "meshtween/io/output.h"
+#include "meshtween/core/error.h"
 #include "meshtween/io/text.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <numeric>
 #include <utility>
 
 namespace meshtween {
@@ -18,69 +20,6 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "glTF's numbers are read as memory has them");
 using nlohmann::json;
-
-std::uint32_t word_at(std::string_view bytes, std::size_t offset) {
-    std::uint32_t value = 0;
-    std::memcpy(&value, bytes.data() + offset, sizeof value);
-    return value;
-}
-
-int base64_digit(char c) {
-    if (c >= 'A' && c <= 'Z') return c - 'A';
-    if (c >= 'a' && c <= 'z') return c - 'a' + 26;
-    if (c >= '0' && c <= '9') return c - '0' + 52;
-    return c == '+' || c == '-' ? 62 : c == '/' || c == '_' ? 63 : -1;
-}
-
-// Stops at the first character that is no digit: the padding, or damage that shows as a buffer too short.
-std::string from_base64(std::string_view text) {
-    std::string bytes;
-    bytes.reserve(text.size() / 4 * 3);
-    std::uint32_t word = 0;
-    int bits = 0;
-    for (const char c : text) {
-        const int digit = base64_digit(c);
-        if (digit < 0) break;
-        word = word << 6 | static_cast<std::uint32_t>(digit);
-        bits += 6;
-        if (bits >= 8) {
-            bits -= 8;
-            bytes += static_cast<char>(word >> bits & 0xff);
-        }
-    }
-    return bytes;
-}
-
-std::string from_percent(std::string_view text) {
-    std::string result;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        unsigned code = 0;
-        if (text[i] == '%' && i + 2 < text.size() &&
-            std::from_chars(text.data() + i + 1, text.data() + i + 3, code, 16).ptr == text.data() + i + 3) {
-            result += static_cast<char>(code);
-            i += 2;
-        } else {
-            result += text[i];
-        }
-    }
-    return result;
-}
-
-std::size_t component_size(std::size_t type) {
-    switch (type) {
-    case 5120:
-    case 5121:
-        return 1;
-    case 5122:
-    case 5123:
-        return 2;
-    case 5125:
-    case 5126:
-        return 4;
-    default:
-        return 0;
-    }
-}
 
 template <typename Number>
 double value_at(const char* raw, bool normalized) {
@@ -112,77 +51,20 @@ double value_at(const char* raw, std::size_t type, bool normalized) {
 
 } // namespace
 
-GltfData::GltfData(std::string_view bytes, std::filesystem::path path) : path_(std::move(path)), total_(bytes.size()) {
-    split_container(bytes);
-    if (!root_.is_object() || !root_.value("asset", json()).is_object()) fail("is no glTF file: it has no 'asset'");
-    refuse_extensions();
-    load_buffers();
-}
-
-void GltfData::fail(std::string_view what) const {
-    bad_file(path_, what);
-}
-
-void GltfData::split_container(std::string_view bytes) {
-    std::string_view text = bytes;
-    if (bytes.substr(0, 4) == "glTF") {
-        if (bytes.size() < 20) fail("the file ends in its header; it is truncated");
-        if (word_at(bytes, 4) != 2)
-            fail(fmt::format("is glTF of version {}; version 2 is read, convert it first", word_at(bytes, 4)));
-        if (word_at(bytes, 8) > bytes.size())
-            fail(fmt::format("promises {} bytes, but the file has {}; it is truncated", word_at(bytes, 8),
-                             bytes.size()));
-        for (std::size_t at = 12; at + 8 <= bytes.size();) {
-            const std::size_t size = word_at(bytes, at), kind = word_at(bytes, at + 4);
-            if (size > bytes.size() - at - 8) fail("a chunk is longer than the file, which is truncated or damaged");
-            if (at == 12) text = bytes.substr(at + 8, size);
-            if (kind == 0x004E4942 && binary_.empty()) binary_ = bytes.substr(at + 8, size); // "BIN"
-            at += 8 + (size + 3) / 4 * 4;
-        }
+std::size_t component_size(std::size_t type) {
+    switch (type) {
+    case 5120:
+    case 5121:
+        return 1;
+    case 5122:
+    case 5123:
+        return 2;
+    case 5125:
+    case 5126:
+        return 4;
+    default:
+        return 0;
     }
-    try {
-        root_ = json::parse(text.begin(), text.end());
-    } catch (const json::exception& error) {
-        fail(fmt::format("its JSON cannot be read ({:.120}); the file is damaged or of another format", error.what()));
-    }
-}
-
-void GltfData::refuse_extensions() const {
-    const json& required = root_.value("extensionsRequired", json::array());
-    for (const json& name : required)
-        if (name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression")
-            fail(fmt::format("is compressed with {}, which is not read; export it without compression",
-                             name == "KHR_draco_mesh_compression" ? "Draco" : "meshopt"));
-}
-
-void GltfData::load_buffers() {
-    const std::size_t count = root_.contains("buffers") ? root_["buffers"].size() : 0;
-    loaded_.resize(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const json& buffer = item("buffers", i);
-        if (!buffer.contains("uri")) {
-            buffers_.push_back(i == 0 ? binary_ : std::string_view());
-            continue;
-        }
-        if (!buffer["uri"].is_string()) fail(fmt::format("buffer {}: its uri is no text", i));
-        loaded_[i] = load_uri(buffer["uri"].get<std::string>());
-        total_ += loaded_[i].size();
-        buffers_.push_back(loaded_[i]);
-    }
-}
-
-// Only files beside this one or below: a model from elsewhere must not read what it likes.
-std::string GltfData::load_uri(const std::string& uri) const {
-    if (uri.compare(0, 5, "data:") == 0) {
-        const std::size_t comma = uri.find(";base64,");
-        if (comma == std::string::npos) fail("a data: uri is not in base64");
-        return from_base64(std::string_view(uri).substr(comma + 8));
-    }
-    const std::filesystem::path name = from_percent(uri);
-    bool inside = name.is_relative() && uri.find("://") == std::string::npos;
-    for (const auto& part : name) inside = inside && part != "..";
-    if (!inside) fail(fmt::format("names the buffer '{}', which lies outside its folder; put it beside", shown(uri)));
-    return read_whole(path_.parent_path() / name);
 }
 
 const json& GltfData::item(const char* list, std::size_t index) const {
@@ -206,13 +88,67 @@ std::size_t GltfData::number(const json& object, const char* key) const {
     return number(object, key, 0);
 }
 
+std::size_t GltfData::count(const char* list) const {
+    const auto found = root_.find(list);
+    return found == root_.end() || !found->is_array() ? 0 : found->size();
+}
+
+std::vector<std::size_t> GltfData::numbers(const json& object, const char* key) const {
+    std::vector<std::size_t> result;
+    const auto found = object.find(key);
+    if (found == object.end()) return result;
+    for (const json& index : *found) {
+        if (!index.is_number_unsigned()) fail(fmt::format("'{}' holds no list of numbers", key));
+        result.push_back(index.get<std::size_t>());
+    }
+    return result;
+}
+
+std::vector<double> GltfData::reals(const json& object, const char* key) const {
+    std::vector<double> result;
+    const auto found = object.find(key);
+    if (found == object.end()) return result;
+    for (const json& value : *found) {
+        if (!value.is_number()) fail(fmt::format("'{}' is damaged: it holds something that is no number", key));
+        result.push_back(value.get<double>());
+    }
+    return result;
+}
+
+// The bytes that a bufferView, or its compressed form, points at.
+std::string_view GltfData::range(const json& object, const std::string& what) const {
+    const std::size_t buffer = number(object, "buffer"), offset = number(object, "byteOffset", 0),
+                      length = number(object, "byteLength");
+    if (buffer < missing_.size() && !missing_[buffer].empty()) throw Error(ErrorKind::file, missing_[buffer]);
+    if (buffer >= buffers_.size() || offset > buffers_[buffer].size() || length > buffers_[buffer].size() - offset)
+        fail(fmt::format("{} reaches beyond its buffer; the file is truncated or damaged", what));
+    return buffers_[buffer].substr(offset, length);
+}
+
 GltfData::View GltfData::view(std::size_t index) const {
     const json& found = item("bufferViews", index);
-    const std::size_t buffer = number(found, "buffer"), offset = number(found, "byteOffset", 0),
-                      length = number(found, "byteLength");
-    if (buffer >= buffers_.size() || offset > buffers_[buffer].size() || length > buffers_[buffer].size() - offset)
-        fail(fmt::format("bufferViews[{}] reaches beyond its buffer; the file is truncated or damaged", index));
-    return {buffers_[buffer].substr(offset, length), number(found, "byteStride", 0)};
+    if (const auto extensions = found.find("extensions"); extensions != found.end())
+        for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+            if (const auto compression = extensions->find(name); compression != extensions->end())
+                return {decoded_view(index, *compression), number(*compression, "byteStride")};
+    return {range(found, fmt::format("bufferViews[{}]", index)), number(found, "byteStride", 0)};
+}
+
+std::string_view GltfData::decoded_view(std::size_t index, const json& compression) const {
+    if (const auto known = views_.find(index); known != views_.end()) return known->second;
+    const auto text = [&](const char* key) {
+        const json value = compression.value(key, json());
+        return value.is_string() ? value.get<std::string>() : std::string();
+    };
+    const std::string_view bytes = range(compression, fmt::format("the compressed bufferViews[{}]", index));
+    MeshoptBytes decoded = decode_meshopt(
+        bytes, {number(compression, "count"), number(compression, "byteStride"), text("mode"), text("filter")});
+    if (!decoded.trouble.empty()) fail(decoded.trouble);
+    return views_[index] = std::move(decoded.bytes);
+}
+
+std::string_view GltfData::view_bytes(std::size_t index) const {
+    return view(index).bytes;
 }
 
 void GltfData::read_numbers(std::string_view bytes, std::size_t stride, std::size_t component_type, bool normalized,
@@ -231,15 +167,19 @@ void GltfData::read_numbers(std::string_view bytes, std::size_t stride, std::siz
             rows.values.push_back(value_at(bytes.data() + i * stride + c * size, component_type, normalized));
 }
 
-GltfRows GltfData::rows(std::size_t index) const {
-    const json& accessor = item("accessors", index);
-    GltfRows rows;
+std::size_t GltfData::columns_of(std::size_t index, const json& accessor) const {
     const std::string type = accessor.value("type", json()).is_string() ? accessor["type"].get<std::string>() : "";
     static constexpr std::array<std::string_view, 5> types{"", "SCALAR", "VEC2", "VEC3", "VEC4"};
     for (std::size_t c = 1; c < types.size(); ++c)
-        if (type == types[c]) rows.columns = c;
-    if (rows.columns == 0)
-        fail(fmt::format("accessors[{}] is of type '{}', not of numbers or vectors", index, shown(type)));
+        if (type == types[c]) return c;
+    if (type == "MAT4" && accessor.value("componentType", json()) == 5126) return 16; // floats leave no gaps
+    fail(fmt::format("accessors[{}] is of type '{}', not of numbers or vectors", index, shown(type)));
+}
+
+GltfRows GltfData::rows(std::size_t index) const {
+    const json& accessor = item("accessors", index);
+    GltfRows rows;
+    rows.columns = columns_of(index, accessor);
     const std::size_t count = number(accessor, "count");
     if (accessor.contains("bufferView")) {
         View source = view(number(accessor, "bufferView"));
@@ -278,6 +218,48 @@ void GltfData::read_sparse(const json& accessor, GltfRows& rows) const {
         for (std::size_t c = 0; c < rows.columns; ++c)
             rows.values[static_cast<std::size_t>(row) * rows.columns + c] = values.values[i * rows.columns + c];
     }
+}
+
+// The decoded part of a primitive that Draco compressed; null for any other.
+const DracoMesh* GltfData::draco(const json& primitive) const {
+    const auto extensions = primitive.find("extensions");
+    if (extensions == primitive.end() || !extensions->is_object()) return nullptr;
+    const auto compression = extensions->find("KHR_draco_mesh_compression");
+    if (compression == extensions->end()) return nullptr;
+    const std::size_t index = number(*compression, "bufferView");
+    auto known = draco_.find(index);
+    if (known == draco_.end()) known = draco_.emplace(index, decode_draco(view_bytes(index))).first;
+    if (known->second.trouble.empty()) return &known->second;
+    const json& position = item("accessors", number(primitive.at("attributes"), "POSITION"));
+    if (position.contains("bufferView")) return nullptr; // the file holds it uncompressed too
+    fail(known->second.trouble);
+}
+
+GltfRows GltfData::attribute(const json& primitive, const std::string& name) const {
+    const std::size_t index = number(primitive.at("attributes"), name.c_str());
+    const DracoMesh* compressed = draco(primitive);
+    if (compressed == nullptr) return rows(index);
+    const json& numbers = primitive["extensions"]["KHR_draco_mesh_compression"].value("attributes", json::object());
+    if (!numbers.contains(name)) return rows(index);
+    const auto found = compressed->of.find(number(numbers, name.c_str()));
+    if (found == compressed->of.end()) fail(fmt::format("its Draco mesh lacks {}; the file is damaged", name));
+    const json& accessor = item("accessors", index);
+    GltfRows result = found->second;
+    if (result.columns != columns_of(index, accessor)) fail(fmt::format("its Draco mesh has another {}", name));
+    const std::size_t type = number(accessor, "componentType");
+    if (accessor.value("normalized", json(false)) == true && component_size(type) > 0 && type != 5126) {
+        const double most = std::exp2(8.0 * static_cast<double>(component_size(type)) - (type % 2 == 0 ? 1 : 0)) - 1;
+        for (double& value : result.values) value = std::max(value / most, -1.0);
+    }
+    return result;
+}
+
+std::vector<double> GltfData::corners(const json& primitive, std::size_t vertices) const {
+    if (const DracoMesh* compressed = draco(primitive)) return compressed->corners;
+    if (primitive.contains("indices")) return rows(number(primitive, "indices")).values;
+    std::vector<double> corners(vertices);
+    std::iota(corners.begin(), corners.end(), 0.0);
+    return corners;
 }
 
 } // namespace meshtween

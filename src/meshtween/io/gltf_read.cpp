@@ -1,29 +1,27 @@
-// glTF 2.0 specification (Khronos, 2021): 3.5 scenes and nodes, 3.7 meshes. The default scene's triangles, one
-// primitive after another, placed by their nodes. Skins, morph targets and animations are passed over: what is read is
-// the mesh as it was modelled.
+// glTF 2.0 specification (Khronos, 2021): 3.7 meshes. The default scene's triangles, one primitive after another, where
+// a viewer shows them that plays no animation.
 #include "meshtween/io/formats.h"
-#include "meshtween/io/gltf_data.h"
+#include "meshtween/io/gltf_materials.h"
+#include "meshtween/io/gltf_numbering.h"
+#include "meshtween/io/gltf_scene.h"
 
 #include "meshtween/core/color.h"
 #include "meshtween/io/text.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include <fmt/format.h>
 
 #include <array>
 #include <cmath>
-#include <limits>
-#include <map>
-#include <ranges>
 
 namespace meshtween {
 namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-constexpr std::size_t most_vertices = 100'000'000; // a small file can ask for any number by repeating a mesh
+constexpr std::size_t most_corners = 300'000'000;
 
 // glTF's vertex colours are linear, those of all other mesh formats are what a screen shows. A colour that was a byte
 // before it was written comes back as that byte.
@@ -35,182 +33,126 @@ float shown_color(double linear) {
 
 class GltfReader {
 public:
-    GltfReader(std::string_view bytes, const std::filesystem::path& path) : data_(bytes, path) {}
+    GltfReader(std::string_view bytes, const std::filesystem::path& path) : data_(bytes, path) {
+        require_known_extensions(data_);
+        layout_ = gltf_layout(data_);
+        mesh_.coordinates.resize(3 * layout_.vertices);
+    }
 
     PolygonMesh read() {
-        visited_.resize(data_.root().contains("nodes") ? data_.root()["nodes"].size() : 0);
-        std::vector<Placed> stack;
-        push(stack, roots(), Eigen::Matrix4d::Identity());
-        while (!stack.empty()) {
-            const Placed placed = stack.back();
-            stack.pop_back();
-            visit(placed, stack);
+        for (const GltfPiece& piece : layout_.pieces) {
+            const GltfPlacement placement = gltf_placement(data_, layout_, piece);
+            if (!piece.again) read_vertices(piece, placement);
+            read_triangles(piece, placement);
         }
-        const std::size_t vertices = mesh_.coordinates.size() / 3;
-        if (!mesh_.colors.empty()) mesh_.colors.resize(4 * vertices, 1);
-        if (!mesh_.texcoords.empty()) {
-            mesh_.texcoords.resize(2 * vertices, 0);
-            mesh_.texcoord_corners = mesh_.corners;
-        }
+        attach_corners();
+        read_gltf_materials(data_, mesh_.file);
+        apply_numbering(gltf_numbering(data_, layout_, mesh_.coordinates, mesh_.ends.size()), mesh_);
+        add_notes();
         return std::move(mesh_);
     }
 
 private:
-    struct Placed {
-        std::size_t node;
-        Eigen::Matrix4d parent; // of the node's parent in the world
-    };
-
-    std::vector<std::size_t> indices(const json& object, const char* key) const {
-        std::vector<std::size_t> result;
-        const auto found = object.find(key);
-        if (found == object.end()) return result;
-        for (const json& index : *found) {
-            if (!index.is_number_unsigned()) data_.fail(fmt::format("'{}' holds no list of numbers", key));
-            result.push_back(index.get<std::size_t>());
-        }
-        return result;
-    }
-
-    // The nodes of the default scene; without scenes, those that are nobody's child.
-    std::vector<std::size_t> roots() const {
-        if (data_.root().contains("scenes"))
-            return indices(data_.item("scenes", data_.number(data_.root(), "scene", 0)), "nodes");
-        std::vector<char> child(visited_.size());
-        for (std::size_t node = 0; node < child.size(); ++node)
-            for (const std::size_t c : indices(data_.item("nodes", node), "children"))
-                if (c < child.size()) child[c] = 1;
-        std::vector<std::size_t> result;
-        for (std::size_t node = 0; node < child.size(); ++node)
-            if (child[node] == 0) result.push_back(node);
-        return result;
-    }
-
-    template <std::size_t Count>
-    std::array<double, Count> numbers(const json& object, const char* key, std::array<double, Count> otherwise) const {
-        const auto found = object.find(key);
-        if (found == object.end()) return otherwise;
-        if (!found->is_array() || found->size() != Count) data_.fail(fmt::format("a node's '{}' is damaged", key));
-        for (std::size_t i = 0; i < Count; ++i) {
-            if (!(*found)[i].is_number()) data_.fail(fmt::format("a node's '{}' is damaged", key));
-            otherwise[i] = (*found)[i].get<double>();
-        }
-        return otherwise;
-    }
-
-    Eigen::Matrix4d local(const json& node) const {
-        if (node.contains("matrix")) {
-            const auto matrix = numbers<16>(node, "matrix", {});
-            return Eigen::Map<const Eigen::Matrix4d>(matrix.data()); // column by column, both
-        }
-        const auto t = numbers<3>(node, "translation", {0, 0, 0}), s = numbers<3>(node, "scale", {1, 1, 1});
-        const auto r = numbers<4>(node, "rotation", {0, 0, 0, 1});
-        const Eigen::Quaterniond rotation(r[3], r[0], r[1], r[2]);
-        Eigen::Affine3d result = Eigen::Translation3d(t[0], t[1], t[2]) * rotation.normalized();
-        result.scale(Eigen::Vector3d(s[0], s[1], s[2]));
-        return result.matrix();
-    }
-
-    void visit(const Placed& placed, std::vector<Placed>& stack) {
-        const json& node = data_.item("nodes", placed.node);
-        if (visited_[placed.node] != 0)
-            data_.fail(fmt::format("nodes[{}] has two parents; the file is damaged", placed.node));
-        visited_[placed.node] = 1;
-        const Eigen::Matrix4d world = placed.parent * local(node);
-        if (node.contains("mesh")) // a skin's joints, not the node, say where its mesh is
-            read_mesh_of(data_.number(node, "mesh"), node.contains("skin") ? Eigen::Matrix4d::Identity() : world);
-        push(stack, indices(node, "children"), world);
-    }
-
-    // So that the first of them is the next to be visited.
-    static void push(std::vector<Placed>& stack, const std::vector<std::size_t>& nodes, const Eigen::Matrix4d& world) {
-        for (const std::size_t node : nodes | std::views::reverse) stack.push_back({node, world});
-    }
-
-    void read_mesh_of(std::size_t index, const Eigen::Matrix4d& world);
-    void read_primitive(const json& primitive, const Eigen::Matrix4d& world);
-    struct Range {
-        std::size_t first = 0, count = 0;
-    };
-    Range read_vertices(const json& attributes, const Eigen::Matrix4d& world);
-    void read_triangles(const std::vector<double>& corners, std::size_t mode, std::size_t first, bool mirrored);
+    void read_vertices(const GltfPiece& piece, const GltfPlacement& placement);
+    void read_texcoords(const GltfPiece& piece);
+    void read_colors(const GltfPiece& piece);
+    void read_normals(const GltfPiece& piece, const GltfPlacement& placement);
+    void read_triangles(const GltfPiece& piece, const GltfPlacement& placement);
+    void name_triangles(const GltfPiece& piece);
+    void attach_corners();
+    void add_notes();
 
     GltfData data_;
-    std::vector<char> visited_;
+    GltfLayout layout_;
     PolygonMesh mesh_;
-    std::map<std::array<std::size_t, 3>, Range> known_; // the vertices of this node's attributes
+    std::vector<std::vector<float>> texcoords_; // a set: u v a vertex of the file
+    std::vector<double> normals_;               // x y z a vertex of the file
+    bool skinned_ = false, weighted_ = false;
 };
 
-void GltfReader::read_mesh_of(std::size_t index, const Eigen::Matrix4d& world) {
-    known_.clear();
-    const json& mesh = data_.item("meshes", index);
-    const auto primitives = mesh.find("primitives");
-    if (primitives == mesh.end() || !primitives->is_array()) return;
-    for (const json& primitive : *primitives) read_primitive(primitive, world);
-}
-
-void GltfReader::read_primitive(const json& primitive, const Eigen::Matrix4d& world) {
-    if (!primitive.is_object() || !primitive.contains("attributes") || !primitive["attributes"].contains("POSITION"))
-        return;
-    const std::size_t mode = data_.number(primitive, "mode", 4);
-    if (mode < 4) return; // points and lines
-    const Range vertices = read_vertices(primitive["attributes"], world);
-    std::vector<double> corners;
-    if (primitive.contains("indices"))
-        corners = data_.rows(data_.number(primitive, "indices")).values;
-    else
-        for (std::size_t i = 0; i < vertices.count; ++i) corners.push_back(static_cast<double>(i));
-    for (const double corner : corners)
-        if (!(corner >= 0 && corner < static_cast<double>(vertices.count)))
-            data_.fail(fmt::format("an index names vertex {}, but its part has {}; the file is damaged", corner,
-                                   vertices.count));
-    if (mesh_.corners.size() + 3 * corners.size() > 3 * most_vertices)
-        data_.fail(fmt::format("has more than {} triangles once its parts are laid out", most_vertices));
-    read_triangles(corners, mode, vertices.first, world.topLeftCorner<3, 3>().determinant() < 0);
-}
-
-// Appends the vertices and says where. Parts that share their attributes share their vertices.
-GltfReader::Range GltfReader::read_vertices(const json& attributes, const Eigen::Matrix4d& world) {
-    const std::array<std::size_t, 3> key{data_.number(attributes, "POSITION"),
-                                         data_.number(attributes, "TEXCOORD_0", none),
-                                         data_.number(attributes, "COLOR_0", none)};
-    const std::size_t first = mesh_.coordinates.size() / 3;
-    if (const auto known = known_.find(key); known != known_.end()) return known->second;
-    const GltfRows positions = data_.rows(key[0]);
+void GltfReader::read_vertices(const GltfPiece& piece, const GltfPlacement& placement) {
+    const GltfRows positions = data_.attribute(layout_.primitive(data_, piece), "POSITION");
     if (positions.columns != 3) data_.fail("a POSITION has not three coordinates; the file is damaged");
-    if (first + positions.size() > most_vertices)
-        data_.fail(fmt::format("has more than {} vertices once its parts are laid out", most_vertices));
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-        const Eigen::Vector4d local(positions.values[3 * i], positions.values[3 * i + 1], positions.values[3 * i + 2],
-                                    1);
-        const Eigen::Vector4d p = world * local;
-        mesh_.coordinates.insert(mesh_.coordinates.end(), {p[0], p[1], p[2]});
+    if (positions.size() != piece.count) data_.fail("a part has another number of vertices than it says");
+    for (std::size_t i = 0; i < piece.count; ++i) {
+        Eigen::Vector4d p(0, 0, 0, 1);
+        for (std::size_t c = 0; c < 3; ++c)
+            p[static_cast<Eigen::Index>(c)] =
+                positions.values[3 * i + c] + (placement.offsets.empty() ? 0 : placement.offsets[3 * i + c]);
+        const Eigen::Vector4d world = placement.matrix(i) * p;
+        std::copy_n(world.data(), 3, mesh_.coordinates.begin() + static_cast<std::ptrdiff_t>(3 * (piece.first + i)));
     }
-    if (key[1] != none) {
-        const GltfRows uv = data_.rows(key[1]);
-        if (uv.columns != 2 || uv.size() != positions.size()) data_.fail("TEXCOORD_0 does not agree with POSITION");
-        mesh_.texcoords.resize(2 * first, 0);
+    skinned_ |= placement.skinned;
+    weighted_ |= !placement.offsets.empty();
+    read_texcoords(piece);
+    read_colors(piece);
+    read_normals(piece, placement);
+}
+
+void GltfReader::read_texcoords(const GltfPiece& piece) {
+    const json& primitive = layout_.primitive(data_, piece);
+    for (std::size_t set = 0;; ++set) {
+        const std::string name = fmt::format("TEXCOORD_{}", set);
+        if (!primitive["attributes"].contains(name)) return;
+        const GltfRows uv = data_.attribute(primitive, name);
+        if (uv.columns != 2 || uv.size() != piece.count) data_.fail(name + " does not agree with POSITION");
+        if (texcoords_.size() == set) texcoords_.emplace_back(2 * layout_.vertices, 0.0F);
         for (std::size_t i = 0; i < uv.values.size(); ++i) {
             const auto value = std::isfinite(uv.values[i]) ? static_cast<float>(uv.values[i]) : 0.0F;
-            mesh_.texcoords.push_back(i % 2 == 0 ? value : 1 - value); // glTF counts v from the top
+            // glTF counts v from the top
+            texcoords_[set][2 * piece.first + i] = i % 2 == 0 ? value : 1 - value;
         }
     }
-    if (key[2] != none) {
-        const GltfRows color = data_.rows(key[2]);
-        if (color.columns < 3 || color.size() != positions.size()) data_.fail("COLOR_0 does not agree with POSITION");
-        mesh_.colors.resize(4 * first, 1);
-        for (std::size_t i = 0; i < color.size(); ++i) {
-            for (std::size_t c = 0; c < 3; ++c)
-                mesh_.colors.push_back(shown_color(std::clamp(color.values[color.columns * i + c], 0.0, 1.0)));
-            mesh_.colors.push_back(color.columns == 4 ? static_cast<float>(color.values[4 * i + 3]) : 1.0F);
-        }
-    }
-    return known_[key] = {first, positions.size()};
 }
 
-// Mode 4: three corners each; 5: a strip, whose every second triangle is turned; 6: a fan.
-void GltfReader::read_triangles(const std::vector<double>& corners, std::size_t mode, std::size_t first,
-                                bool mirrored) {
+void GltfReader::read_colors(const GltfPiece& piece) {
+    const json& primitive = layout_.primitive(data_, piece);
+    if (!primitive["attributes"].contains("COLOR_0")) return;
+    const GltfRows color = data_.attribute(primitive, "COLOR_0");
+    if (color.columns < 3 || color.size() != piece.count) data_.fail("COLOR_0 does not agree with POSITION");
+    mesh_.colors.resize(4 * layout_.vertices, 1);
+    for (std::size_t i = 0; i < color.size(); ++i) {
+        float* rgba = mesh_.colors.data() + 4 * (piece.first + i);
+        for (std::size_t c = 0; c < 3; ++c)
+            rgba[c] = shown_color(std::clamp(color.values[color.columns * i + c], 0.0, 1.0));
+        rgba[3] = color.columns == 4 ? static_cast<float>(color.values[4 * i + 3]) : 1.0F;
+    }
+}
+
+void GltfReader::read_normals(const GltfPiece& piece, const GltfPlacement& placement) {
+    const json& primitive = layout_.primitive(data_, piece);
+    if (!primitive["attributes"].contains("NORMAL")) return;
+    const GltfRows normals = data_.attribute(primitive, "NORMAL");
+    if (normals.columns != 3 || normals.size() != piece.count) return; // they do not shape anything
+    normals_.resize(3 * layout_.vertices, 0.0);
+    Eigen::Matrix3d turn = Eigen::Matrix3d::Identity(); // cofactors: the inverse's transpose without its division
+    for (std::size_t i = 0; i < piece.count; ++i) {
+        if (i == 0 || placement.matrices.size() > 1) {
+            const Eigen::Matrix3d m = placement.matrix(i).topLeftCorner<3, 3>();
+            turn << m.col(1).cross(m.col(2)), m.col(2).cross(m.col(0)), m.col(0).cross(m.col(1));
+            if (m.determinant() < 0) turn = -turn;
+        }
+        const Eigen::Vector3d n =
+            (turn * Eigen::Map<const Eigen::Vector3d>(normals.values.data() + 3 * i)).stableNormalized();
+        if (n.allFinite())
+            std::copy_n(n.data(), 3, normals_.begin() + static_cast<std::ptrdiff_t>(3 * (piece.first + i)));
+    }
+}
+
+// Mode 4: three corners each; 5: a strip, whose every second triangle is turned; 6: a fan. Where a matrix mirrors, its
+// triangles are turned back.
+void GltfReader::read_triangles(const GltfPiece& piece, const GltfPlacement& placement) {
+    const json& primitive = layout_.primitive(data_, piece);
+    const std::size_t mode = data_.number(primitive, "mode", 4);
+    const std::vector<double> corners = data_.corners(primitive, piece.count);
+    for (const double corner : corners)
+        if (!(corner >= 0 && corner < static_cast<double>(piece.count)))
+            data_.fail(
+                fmt::format("an index names vertex {}, but its part has {}; the file is damaged", corner, piece.count));
+    if (mesh_.corners.size() + 3 * corners.size() > most_corners)
+        data_.fail(fmt::format("has more than {} triangles once its parts are laid out", most_corners / 3));
+    const auto mirrors = [&](std::size_t i) { return placement.matrix(i).topLeftCorner<3, 3>().determinant() < 0; };
+    const bool one = placement.matrices.size() == 1, all = one && mirrors(0);
     const std::size_t count = mode == 4 ? corners.size() / 3 : corners.size() < 3 ? 0 : corners.size() - 2;
     for (std::size_t t = 0; t < count; ++t) {
         std::array<std::size_t, 3> at{t, t + 1, t + 2};
@@ -220,11 +162,55 @@ void GltfReader::read_triangles(const std::vector<double>& corners, std::size_t 
             at = {0, t + 1, t + 2};
         else if (t % 2 == 1)
             std::swap(at[1], at[2]);
-        if (mirrored) std::swap(at[1], at[2]);
+        if (one ? all : mirrors(static_cast<std::size_t>(corners[at[0]]))) std::swap(at[1], at[2]);
         for (const std::size_t i : at)
-            mesh_.corners.push_back(static_cast<int>(first + static_cast<std::size_t>(corners[i])));
+            mesh_.corners.push_back(static_cast<int>(piece.first + static_cast<std::size_t>(corners[i])));
         mesh_.end_polygon();
     }
+    name_triangles(piece);
+}
+
+// Their material, and the node's name (or its mesh's).
+void GltfReader::name_triangles(const GltfPiece& piece) {
+    const GltfPart& part = layout_.parts[piece.part];
+    const json& primitive = layout_.primitive(data_, piece);
+    MeshFile& file = mesh_.file;
+    const std::size_t materials = data_.count("materials"), material = data_.number(primitive, "material", materials);
+    if (materials > 0)
+        file.polygon_materials.resize(mesh_.ends.size(), material < materials ? static_cast<int>(material) : -1);
+    json name = data_.item("nodes", part.node).value("name", json());
+    if (!name.is_string()) name = data_.item("meshes", part.mesh).value("name", json());
+    std::string text = name.is_string() ? name.get<std::string>() : std::string();
+    if (part.instance > 0) text += fmt::format(" {}", part.instance + 1);
+    auto known = std::find(file.objects.names.begin(), file.objects.names.end(), text);
+    if (known == file.objects.names.end()) known = file.objects.names.insert(known, text);
+    file.objects.of.resize(mesh_.ends.size(), static_cast<int>(known - file.objects.names.begin()));
+}
+
+void GltfReader::attach_corners() {
+    if (mesh_.file.objects.names == std::vector<std::string>{""}) mesh_.file.objects = {};
+    if (!texcoords_.empty()) {
+        mesh_.texcoords = std::move(texcoords_.front());
+        mesh_.texcoord_corners = mesh_.corners;
+    }
+    for (std::size_t set = 1; set < texcoords_.size(); ++set) {
+        const auto rows = static_cast<Eigen::Index>(layout_.vertices);
+        mesh_.file.more_texcoords.push_back({fmt::format("TEXCOORD_{}", set),
+                                             Eigen::Map<const Texcoords>(texcoords_[set].data(), rows, 2),
+                                             mesh_.corners});
+    }
+    if (normals_.empty()) return;
+    mesh_.file.normals = Eigen::Map<const Points>(normals_.data(), static_cast<Eigen::Index>(layout_.vertices), 3);
+    mesh_.file.normal_corners = mesh_.corners;
+}
+
+void GltfReader::add_notes() {
+    std::vector<std::string>& notes = mesh_.file.notes;
+    if (layout_.passed_over > 0)
+        notes.push_back(
+            fmt::format("{} of its parts are points or lines, not triangles: passed over", layout_.passed_over));
+    if (skinned_) notes.emplace_back("its skin is read in its rest pose, as a viewer shows it without an animation");
+    if (weighted_) notes.emplace_back("its morph targets are read with the file's default weights, not with 0");
 }
 
 } // namespace
