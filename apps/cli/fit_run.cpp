@@ -109,14 +109,13 @@ void check_fit_files(const FitFlags& flags) {
     }
 }
 
-void write_fit_files(const Fitted& fitted, const FitFlags& flags, Console& console, Json& report) {
-    const auto tell = [&](const std::string& file) {
-        report["outputs"].push_back(file);
-        console.note("wrote " + file);
+void write_fit_files(const Fitted& fitted, const FitFlags& flags, const WriteOptions& writing, Console& console,
+                     Json& report) {
+    const auto tell = [&](const std::string& file, std::vector<std::string> notes = {}) {
+        tell_written({{file}, std::move(notes)}, console, report);
     };
     if (!flags.refine.empty()) {
-        write_mesh(fitted.source, flags.refine);
-        tell(flags.refine);
+        tell(flags.refine, write_mesh(fitted.source, flags.refine, writing));
     }
     if (!flags.map.empty()) {
         write_map(fitted.map, flags.map);
@@ -126,11 +125,11 @@ void write_fit_files(const Fitted& fitted, const FitFlags& flags, Console& conso
         if (names_a_mesh(flags.weights)) {
             Mesh coloured = fitted.mesh;
             coloured.colors = trust_colors(fitted.map);
-            write_mesh(coloured, flags.weights);
+            tell(flags.weights, write_mesh(coloured, flags.weights, writing));
         } else {
             write_weights(fitted.map, flags.weights);
+            tell(flags.weights);
         }
-        tell(flags.weights);
     }
 }
 

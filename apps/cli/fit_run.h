@@ -25,7 +25,8 @@ struct Fitted {
     meshtween::Correspondence map;
     meshtween::Json report;
 };
-void write_fit_files(const Fitted& fitted, const FitFlags& flags, Console& console, meshtween::Json& report);
+void write_fit_files(const Fitted& fitted, const FitFlags& flags, const meshtween::WriteOptions& writing,
+                     Console& console, meshtween::Json& report);
 
 // `seed` is that of the points with which distances are measured. Throws Error(argument) for the paper's fit with
 // fewer than 3 markers, and as fit().

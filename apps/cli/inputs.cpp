@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 using namespace meshtween;
 
@@ -86,6 +87,25 @@ std::vector<Output> load_outputs(const std::vector<std::string>& names) {
         outputs.push_back(output(name));
     }
     return outputs;
+}
+
+void add_write_flags(CLI::App& verb, WriteOptions& options) {
+    static const std::map<std::string, Textures> ways{{"copy", Textures::copy}, {"refer", Textures::refer}};
+    verb.add_option(
+            "--textures", options.textures,
+            "Material libraries and pictures that a mesh names: copy them beside it, or refer to where they are")
+        ->transform(CLI::CheckedTransformer(ways))
+        ->default_str("copy");
+}
+
+void tell_written(const Written& written, Console& console) {
+    for (const auto& file : written.files) console.note("wrote " + file.string());
+    for (const auto& note : written.notes) console.note(note);
+}
+
+void tell_written(const Written& written, Console& console, Json& report) {
+    for (const auto& file : written.files) report["outputs"].push_back(file.string());
+    tell_written(written, console);
 }
 
 std::string title_of(const std::vector<std::string>& meshes) {

@@ -29,6 +29,11 @@ std::vector<meshtween::Mesh> load_one_connectivity(const std::vector<std::string
 meshtween::MarkerPairs load_markers(const std::vector<std::string>& files, const meshtween::Mesh& source,
                                     const meshtween::Mesh& target, Console& console);
 std::vector<meshtween::Output> load_outputs(const std::vector<std::string>& names);
+// How meshes are written.
+void add_write_flags(CLI::App& verb, meshtween::WriteOptions& options);
+// Says what was written and what the files could not hold.
+void tell_written(const meshtween::Written& written, Console& console);
+void tell_written(const meshtween::Written& written, Console& console, meshtween::Json& report);
 std::string title_of(const std::vector<std::string>& meshes); // the files' names without folders: "a to b"
 
 // The report's first lines; and its last, with the file written where one is named.

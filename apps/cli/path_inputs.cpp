@@ -126,7 +126,7 @@ void write_one_shape(const PathWork& work, const PathFlags& flags, const KeyOpti
     }
     tell_solve(solve, console, row);
     row["shapes"] = Json::array({{{"u", u}, {"shape", describe(shape)}}});
-    written = write_still(shape, fmt::format("u = {:.3g}", u), work.before, work.outputs, progress);
+    written = write_still(shape, fmt::format("u = {:.3g}", u), work.before, work.outputs, progress, flags.writing);
 }
 
 void write_whole_path(const PathWork& work, const PathFlags& flags, const KeyOptions& keys, const Progress& progress,
@@ -153,6 +153,7 @@ void write_whole_path(const PathWork& work, const PathFlags& flags, const KeyOpt
     playable.order = frame_order(flags);
     playable.before = work.before;
     playable.ends_before = work.ends_before;
+    playable.writing = flags.writing;
     written = write_outputs(playable, work.outputs, part_of(progress, 0.8, 1));
 }
 
@@ -166,6 +167,7 @@ void add_method_flags(CLI::App& verb, PathFlags& flags) {
         ->capture_default_str();
     verb.add_option("--c1", flags.options.c1, "C1 of the dual method's Eq. 12, over 1")->capture_default_str();
     verb.add_option("--c2", flags.options.c2, "C2 of the dual method's Eq. 12, under 1")->capture_default_str();
+    add_write_flags(verb, flags.writing);
 }
 
 void add_path_flags(CLI::App& verb, PathFlags& flags) {
@@ -203,8 +205,5 @@ void write_path(const PathWork& work, const PathFlags& flags, const Progress& pr
         write_one_shape(work, flags, keys, progress, console, row, written);
     stop_if_interrupted();
     row["seconds"] = seconds_since(start);
-    for (const auto& file : written.files) {
-        report["outputs"].push_back(file.string());
-        console.note("wrote " + file.string());
-    }
+    tell_written(written, console, report);
 }

@@ -22,6 +22,7 @@ struct PathFlags {
     std::vector<double> times; // of several shapes
     bool no_repair = false;
     meshtween::RepairOptions repair;
+    meshtween::WriteOptions writing;
 };
 void add_method_flags(CLI::App& verb, PathFlags& flags); // the method and its constants alone
 void add_path_flags(CLI::App& verb, PathFlags& flags);

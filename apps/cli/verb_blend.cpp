@@ -69,10 +69,7 @@ void add_blend(CLI::App& app, const Common& common) {
         report["weights"] = weights;
         report["method"] = a->path.method;
         report["blend"] = describe(blended);
-        for (const auto& file : write_still(blended, "blend", {}, outputs).files) {
-            report["outputs"].push_back(file.string());
-            console.note("wrote " + file.string());
-        }
+        tell_written(write_still(blended, "blend", {}, outputs, {}, a->path.writing), console, report);
         finish_report(report, a->report, start);
     });
 }

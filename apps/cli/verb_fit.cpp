@@ -8,6 +8,7 @@ namespace {
 struct Arguments {
     std::string source, target, truth, report;
     std::vector<std::string> markers, outputs;
+    WriteOptions writing;
     FitFlags fit;
 };
 } // namespace
@@ -28,6 +29,7 @@ void add_fit(CLI::App& app, const Common& common) {
     verb->add_option("--report", a->report, "Write what was found out as JSON");
     add_fit_flags(*verb, a->fit);
     add_fit_files(*verb, a->fit);
+    add_write_flags(*verb, a->writing);
     verb->callback([a, &common] {
         const auto start = std::chrono::steady_clock::now();
         Console console(common.quiet);
@@ -44,13 +46,10 @@ void add_fit(CLI::App& app, const Common& common) {
         report["fit"] = fitted.report;
         const Written written =
             write_still(fitted.mesh, "source's mesh on the target", {{"source", source, {}}, {"target", target, {}}},
-                        outputs, part_of(progress, 0.95, 1));
+                        outputs, part_of(progress, 0.95, 1), a->writing);
         stop_if_interrupted();
-        for (const auto& file : written.files) {
-            report["outputs"].push_back(file.string());
-            console.note("wrote " + file.string());
-        }
-        write_fit_files(fitted, a->fit, console, report);
+        tell_written(written, console, report);
+        write_fit_files(fitted, a->fit, a->writing, console, report);
         finish_report(report, a->report, start);
     });
 }

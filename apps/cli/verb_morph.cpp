@@ -46,7 +46,7 @@ void morph_two(const Arguments& a, std::uint32_t seed, Console& console, Json& r
                 !a.report.empty(),
                 true},
                a.path, part_of(progress, 0.6, 1), console, report);
-    write_fit_files(fitted, a.fit, console, report);
+    write_fit_files(fitted, a.fit, a.path.writing, console, report);
 }
 
 // One template on both shapes (the paper's Fig. 12), then from one fit to the other.

@@ -17,6 +17,7 @@ struct Arguments {
     std::vector<double> axis, centre;
     double angle = 0;
     std::vector<std::string> outputs;
+    WriteOptions writing;
 };
 
 Point point(const std::vector<double>& xyz) {
@@ -41,6 +42,7 @@ void add_rotate(CLI::App& app, const Common& common) {
         ->required()
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_write_flags(*verb, a->writing);
     verb->callback([a, &common] {
         Console console(common.quiet);
         const auto outputs = load_outputs(a->outputs);
@@ -50,7 +52,7 @@ void add_rotate(CLI::App& app, const Common& common) {
         turned.positions =
             rotate(mesh.positions, markers.turn, markers.hold, point(a->axis), point(a->centre), a->angle);
         const Written written = write_still(turned, fmt::format("turned by {:g} degrees", a->angle),
-                                            {{"before", mesh, markers.turn}}, outputs);
-        for (const auto& file : written.files) console.note("wrote " + file.string());
+                                            {{"before", mesh, markers.turn}}, outputs, {}, a->writing);
+        tell_written(written, console);
     });
 }

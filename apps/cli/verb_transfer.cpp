@@ -19,6 +19,7 @@ namespace {
 struct Arguments {
     std::string fitted, target, to = "template", template_mesh;
     std::vector<std::string> outputs;
+    WriteOptions writing;
     std::string values, values_out, points, points_out;
 };
 
@@ -91,8 +92,8 @@ void transfer_points(const Arguments& a, const Sides& sides, Console& console) {
     console.note("wrote " + a.points_out);
 }
 
-void transfer_mesh(const std::vector<Output>& outputs, const Sides& sides, const std::vector<SurfacePoint>& places,
-                   Console& console) {
+void transfer_mesh(const std::vector<Output>& outputs, const WriteOptions& writing, const Sides& sides,
+                   const std::vector<SurfacePoint>& places, Console& console) {
     const Mesh& giver = sides.giver.fitted;
     if (giver.colors.rows() == 0 && giver.texcoords.rows() == 0)
         throw Error(ErrorKind::file,
@@ -100,8 +101,7 @@ void transfer_mesh(const std::vector<Output>& outputs, const Sides& sides, const
                                 sides.giver_file));
     Mesh result = with_attributes(sides.receiver.fitted, giver, places);
     result.positions = sides.receiver.rest.positions;
-    for (const auto& file : write_still(result, "what was carried over", {}, outputs).files)
-        console.note("wrote " + file.string());
+    tell_written(write_still(result, "what was carried over", {}, outputs, {}, writing), console);
 }
 
 void transfer(const Arguments& a, Console& console) {
@@ -116,7 +116,7 @@ void transfer(const Arguments& a, Console& console) {
     stop_if_interrupted();
     warn_if_apart(sides, places, console);
     keep_going(progress, 0.6, "carrying over");
-    if (!outputs.empty()) transfer_mesh(outputs, sides, places, console);
+    if (!outputs.empty()) transfer_mesh(outputs, a.writing, sides, places, console);
     if (!a.values.empty()) transfer_values(a, sides, places, console);
     if (!a.points.empty()) transfer_points(a, sides, console);
 }
@@ -142,6 +142,7 @@ void add_transfer(CLI::App& app, const Common& common) {
                      ".png; may be given several times")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_write_flags(*verb, a->writing);
     auto* values = verb->add_option("--values", a->values,
                                     "CSV of numbers, a row for each vertex of the giving mesh (skin weights, a map)");
     values->needs(verb->add_option("--values-out", a->values_out, "The same for the receiving mesh")->needs(values));

@@ -37,6 +37,11 @@ Mesh shown_at(const Playable& playable, double time) {
     return with_positions(playable.mesh, playable.path.at(ease(playable.play.ease, time)));
 }
 
+// Every frame of a sequence says the same: once is enough.
+void note(Written& written, const std::vector<std::string>& notes, bool first = true) {
+    if (first) written.notes.insert(written.notes.end(), notes.begin(), notes.end());
+}
+
 Film film_of(const Playable& playable) {
     return {playable.mesh, playable.path.nodes};
 }
@@ -56,7 +61,7 @@ void write_sequence(const Playable& playable, const std::filesystem::path& patte
         if (film)
             write_png(film->frame(mesh), path);
         else
-            write_mesh(mesh, path);
+            note(written, write_mesh(mesh, path, playable.writing), i == 0);
         written.files.push_back(path);
     }
 }
@@ -196,6 +201,7 @@ Written write_outputs(const Playable& playable, const std::vector<Output>& outpu
         if (written.cancelled) break;
         if (kind == OutputKind::glb) write_whole(path, glb);
         if (kind == OutputKind::html) write_whole(path, morph_html(glb, playable.play));
+        if (kind == OutputKind::glb || kind == OutputKind::html) note(written, left_behind(playable.mesh, path));
         if (kind == OutputKind::sheet) written.cancelled = !write_sheet(playable, path, part);
         if (kind == OutputKind::film) written.cancelled = !write_film(playable, path, part);
         if (kind == OutputKind::plot) write_plot(playable, path, part, written);
@@ -208,7 +214,7 @@ Written write_outputs(const Playable& playable, const std::vector<Output>& outpu
 }
 
 Written write_still(const Mesh& mesh, const std::string& caption, const std::vector<Tile>& before,
-                    const std::vector<Output>& outputs, const Progress& progress) {
+                    const std::vector<Output>& outputs, const Progress& progress, const WriteOptions& writing) {
     check_still(outputs);
     Written written;
     for (const auto& [kind, path] : outputs) {
@@ -220,7 +226,7 @@ Written write_still(const Mesh& mesh, const std::string& caption, const std::vec
                 break;
             }
         } else {
-            write_mesh(mesh, path);
+            note(written, write_mesh(mesh, path, writing));
         }
         written.files.push_back(path);
     }

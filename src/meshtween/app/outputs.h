@@ -4,6 +4,7 @@
 #include "meshtween/app/export.h"
 #include "meshtween/app/preview.h"
 #include "meshtween/core/progress.h"
+#include "meshtween/io/mesh_io.h"
 #include "meshtween/morph/path_quality.h"
 
 #include <filesystem>
@@ -55,11 +56,13 @@ struct Playable {
     std::vector<Tile> before; // tiles that a contact sheet shows before the in-betweens
     bool ends_before = false; // both ends are among them
     PathQuality quality;      // for a plot; measured where it is empty and a plot is wanted
+    WriteOptions writing;     // of meshes
 };
 
 // What the writing found out, for the report.
 struct Written {
     std::vector<std::filesystem::path> files;
+    std::vector<std::string> notes; // what files could not hold, sentences
     bool cancelled = false;
 };
 
@@ -72,6 +75,7 @@ Written write_outputs(const Playable& playable, const std::vector<Output>& outpu
 
 // One shape of it: meshes and still GLBs, a picture for .png. Throws Error(argument) for a page or a sequence.
 Written write_still(const Mesh& mesh, const std::string& caption, const std::vector<Tile>& before,
-                    const std::vector<Output>& outputs, const Progress& progress = {});
+                    const std::vector<Output>& outputs, const Progress& progress = {},
+                    const WriteOptions& writing = {});
 
 } // namespace meshtween

@@ -1,11 +1,13 @@
 // One reader and one writer a format, behind mesh_io.h. Readers throw Error(file) naming `path` and line or element.
 #pragma once
 
+#include "meshtween/io/mesh_io.h"
 #include "meshtween/io/polygons.h"
 
 #include <filesystem>
-#include <ostream>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace meshtween {
 
@@ -15,10 +17,22 @@ PolygonMesh read_stl(std::string_view bytes, const std::filesystem::path& path);
 PolygonMesh read_off(std::string_view bytes, const std::filesystem::path& path);
 PolygonMesh read_gltf(std::string_view bytes, const std::filesystem::path& path);
 
-void write_obj(const Mesh& mesh, std::ostream& stream);
-void write_ply(const Mesh& mesh, std::ostream& stream);
-void write_stl(const Mesh& mesh, std::ostream& stream);
-void write_off(const Mesh& mesh, std::ostream& stream);
+// Each writes `path` through write_whole and returns sentences for people: what became of pictures beside it, what was
+// decided. What the format cannot hold is told by its FormatKeeps. Where is_rewritable, the mesh's own file comes back
+// with other positions.
+std::vector<std::string> write_obj(const Mesh& mesh, const std::filesystem::path& path, const WriteOptions& options);
+std::vector<std::string> write_ply(const Mesh& mesh, const std::filesystem::path& path, const WriteOptions& options);
+std::vector<std::string> write_stl(const Mesh& mesh, const std::filesystem::path& path, const WriteOptions& options);
+std::vector<std::string> write_off(const Mesh& mesh, const std::filesystem::path& path, const WriteOptions& options);
+
+// What a format can hold besides positions and triangles, as our writer writes it.
+struct FormatKeeps {
+    bool polygons = false, texcoords = false, more_texcoords = false, colors = false;
+    bool objects = false, groups = false, smoothing = false, materials = false, images = false;
+};
+
+// What the mesh and its file have and the format has not: "12 groups", "vertex colours".
+std::vector<std::string> not_kept(const Mesh& mesh, const FormatKeeps& keeps);
 
 // Colours that some writer gave in 0..255 come down to 0..1.
 void normalise_colors(std::vector<float>& colors);

@@ -1,6 +1,10 @@
 #include "meshtween/io/mesh_file.h"
 
+#include "meshtween/io/formats.h"
+#include "meshtween/io/text.h"
+
 #include <algorithm>
+#include <cstring>
 
 namespace meshtween {
 
@@ -12,6 +16,73 @@ std::vector<int> polygon_of_triangles(const MeshFile& file) {
         result.push_back(static_cast<int>(end - file.ends.begin()));
     }
     return result;
+}
+
+namespace {
+
+// FNV-1a over words: a check of what was read against itself, not against forgers.
+std::uint64_t mixed(std::uint64_t key, const void* data, std::size_t size) {
+    const char* at = static_cast<const char*>(data);
+    for (std::uint64_t word = 0; size > 0;) {
+        const std::size_t take = std::min(size, sizeof word);
+        word = 0;
+        std::memcpy(&word, at, take);
+        key = (key ^ word) * 0x100000001B3U;
+        key ^= key >> 32;
+        at += take;
+        size -= take;
+    }
+    return key;
+}
+
+template <typename Matrix>
+std::uint64_t mixed(std::uint64_t key, const Matrix& matrix) {
+    const Eigen::Index rows = matrix.rows();
+    return mixed(mixed(key, &rows, sizeof rows), matrix.data(),
+                 static_cast<std::size_t>(matrix.size()) * sizeof(typename Matrix::Scalar));
+}
+
+} // namespace
+
+std::uint64_t attributes_key(const Mesh& mesh) {
+    return mixed(mixed(mixed(0xCBF29CE484222325U, mesh.texcoords), mesh.texcoord_triangles), mesh.colors);
+}
+
+bool is_described(const Mesh& mesh) {
+    if (!mesh.file) return false;
+    const MeshFile& file = *mesh.file;
+    if (mesh.positions.rows() != file.vertices || mesh.triangles.rows() != file.cut.rows()) return false;
+    for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i)
+        if (mesh.triangles.data()[i] != file.corners[static_cast<std::size_t>(file.cut.data()[i])]) return false;
+    return true;
+}
+
+std::vector<std::string> not_kept(const Mesh& mesh, const FormatKeeps& keeps) {
+    std::vector<std::string> lost;
+    if (!keeps.texcoords && mesh.texcoords.rows() > 0) lost.emplace_back("texture coordinates");
+    if (!keeps.colors && mesh.colors.rows() > 0) lost.emplace_back("vertex colours");
+    if (!mesh.file) return lost;
+    const MeshFile& file = *mesh.file;
+    const auto lose = [&](bool kept, std::size_t count, std::string_view noun) {
+        if (!kept && count > 0) lost.push_back(counted(count, noun));
+    };
+    std::size_t large = 0;
+    for (std::size_t p = 0; p < file.ends.size(); ++p) large += file.ends[p] - (p > 0 ? file.ends[p - 1] : 0) > 3;
+    if (!keeps.polygons && large > 0) lost.push_back(counted(large, "polygon") + " of more than three corners");
+    if (!keeps.more_texcoords && !file.more_texcoords.empty())
+        lost.push_back(counted(file.more_texcoords.size(), "further set") + " of texture coordinates");
+    lose(keeps.objects, file.objects.names.size(), "object");
+    lose(keeps.groups, file.groups.names.size(), "group");
+    lose(keeps.smoothing, file.smoothing.names.size(), "smoothing group");
+    lose(keeps.materials, file.materials.size(), "material");
+    lose(keeps.images, file.images.size(), "texture");
+    lost.insert(lost.end(), file.only_here.begin(), file.only_here.end());
+    return lost;
+}
+
+bool is_rewritable(const Mesh& mesh, std::string_view format) {
+    return mesh.file && mesh.file->format == format && !mesh.file->bytes.empty() && is_described(mesh) &&
+           attributes_key(mesh) == mesh.file->attributes;
 }
 
 } // namespace meshtween

@@ -5,8 +5,10 @@
 #include "meshtween/core/mesh.h"
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace meshtween {
@@ -28,7 +30,8 @@ struct Material {
     int base_color_image = -1; // of MeshFile::images; -1: none
 };
 
-// One name for each polygon: names[of[polygon]], or none where of[polygon] is -1. Both are empty where the file has none.
+// One name for each polygon: names[of[polygon]], or none where of[polygon] is -1. Both are empty where the file has
+// none.
 struct PolygonNames {
     std::vector<std::string> names;
     std::vector<int> of;
@@ -50,6 +53,8 @@ struct MeshFile {
     std::vector<int> corners; // vertices, polygon after polygon
     std::vector<int> ends;    // a polygon: where its corners end
     Triangles cut;            // beside the mesh's triangles: their corners
+    Eigen::Index vertices = 0;
+    std::uint64_t attributes = 0; // attributes_key of the mesh as it was read
 
     Points normals;                  // as the file had them, unit length or not
     std::vector<int> normal_corners; // beside corners: a row of normals, or -1; empty with normals
@@ -61,10 +66,23 @@ struct MeshFile {
     std::vector<TextureImage> images;
     std::vector<std::string> material_libraries; // OBJ's mtllib, as written
 
+    // What no other format holds, each as a sentence names it: "the property 'quality'", "2 animations".
+    std::vector<std::string> only_here;
+
     std::vector<std::string> notes; // what was passed over, counted or decided while reading; sentences for people
 };
 
 // The polygon of each of the mesh's triangles. m numbers.
 std::vector<int> polygon_of_triangles(const MeshFile& file);
+
+// A number that tells texture coordinates and colours from others.
+std::uint64_t attributes_key(const Mesh& mesh);
+
+// Whether the mesh's file describes it still: vertices and triangles are those that were read. False without a file.
+bool is_described(const Mesh& mesh);
+
+// Whether a file of this format ("a lower-case extension") can be written as the mesh's own file with other positions:
+// it is of that format and describes the mesh, and texture coordinates and colours are those that were read.
+bool is_rewritable(const Mesh& mesh, std::string_view format);
 
 } // namespace meshtween

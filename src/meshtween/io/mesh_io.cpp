@@ -21,25 +21,42 @@ namespace fs = std::filesystem;
 struct Format {
     std::string_view extension;
     PolygonMesh (*read)(std::string_view, const fs::path&);
-    void (*write)(const Mesh&, std::ostream&);
+    std::vector<std::string> (*write)(const Mesh&, const fs::path&, const WriteOptions&);
+    FormatKeeps keeps;
 };
 
-void write_glb(const Mesh& mesh, std::ostream& stream) {
-    stream << mesh_glb(mesh);
+std::vector<std::string> write_glb(const Mesh& mesh, const fs::path& path, const WriteOptions&) {
+    write_whole(path, mesh_glb(mesh));
+    return {};
 }
 
+constexpr FormatKeeps obj_keeps{.texcoords = true, .colors = true};
+constexpr FormatKeeps ply_keeps{.texcoords = true, .colors = true};
+constexpr FormatKeeps off_keeps{.colors = true};
+constexpr FormatKeeps gltf_keeps{.texcoords = true, .colors = true};
+
 constexpr std::array formats{
-    Format{".obj", read_obj, write_obj}, Format{".ply", read_ply, write_ply},  Format{".stl", read_stl, write_stl},
-    Format{".off", read_off, write_off}, Format{".glb", read_gltf, write_glb}, Format{".gltf", read_gltf, nullptr},
+    Format{".obj", read_obj, write_obj, obj_keeps},   Format{".ply", read_ply, write_ply, ply_keeps},
+    Format{".stl", read_stl, write_stl, {}},          Format{".off", read_off, write_off, off_keeps},
+    Format{".glb", read_gltf, write_glb, gltf_keeps}, Format{".gltf", read_gltf, nullptr, gltf_keeps},
 };
 
-const Format& format_of(const fs::path& path) {
+std::string lower_extension(const fs::path& path) {
     std::string extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+const Format* find_format(std::string_view extension) {
     const auto* found =
         std::find_if(formats.begin(), formats.end(), [&](const Format& f) { return f.extension == extension; });
-    if (found != formats.end()) return *found;
+    return found == formats.end() ? nullptr : found;
+}
+
+const Format& format_of(const fs::path& path) {
+    const std::string extension = lower_extension(path);
+    if (const Format* found = find_format(extension)) return *found;
     throw Error(ErrorKind::argument, fmt::format("{}: {} is no mesh format known here; use one of {}", path.string(),
                                                  extension.empty() ? "a name without an extension" : extension,
                                                  fmt::join(mesh_extensions(), " ")));
@@ -85,12 +102,27 @@ std::vector<Mesh> read_meshes(const std::vector<fs::path>& paths) {
     return meshes;
 }
 
-void write_mesh(const Mesh& mesh, const fs::path& path) {
+std::vector<std::string> write_mesh(const Mesh& mesh, const fs::path& path, const WriteOptions& options) {
     const Format& format = format_of(path);
     if (format.write == nullptr)
         throw Error(ErrorKind::argument,
                     fmt::format("{}: {} is read but not written; write .glb", path.string(), format.extension));
-    write_whole(path, [&](std::ostream& stream) { format.write(mesh, stream); });
+    std::vector<std::string> notes = format.write(mesh, path, options);
+    for (std::string& note : left_behind(mesh, path)) notes.push_back(std::move(note));
+    return notes;
+}
+
+std::vector<std::string> left_behind(const Mesh& mesh, const fs::path& path) {
+    const std::string extension = lower_extension(path);
+    if (is_rewritable(mesh, extension)) return {};
+    const Format* format = find_format(extension == ".html" ? ".glb" : extension);
+    if (format == nullptr) return {};
+    const std::vector<std::string> lost = not_kept(mesh, format->keeps);
+    if (lost.empty()) return {};
+    const Format* own = mesh.file ? find_format(mesh.file->format) : nullptr;
+    const bool helps = own != nullptr && own->write != nullptr && own != format;
+    return {fmt::format("{}: left behind {}{}", path.string(), listed(lost),
+                        helps ? fmt::format("; write {} to keep them", own->extension) : "")};
 }
 
 const std::vector<std::string>& mesh_extensions() {

@@ -19,10 +19,27 @@ Mesh read_mesh(const std::filesystem::path& path);
 // triangles as the first is, so that a mesh of quads in two poses stays one mesh. Throws as read_mesh.
 std::vector<Mesh> read_meshes(const std::vector<std::filesystem::path>& paths);
 
+// Where a picture or a material library that the mesh's file names lies in another folder than the written file.
+enum class Textures {
+    copy,  // it is copied beside the written file, so that the folder can be passed on
+    refer, // the written file names it where it is
+};
+
+struct WriteOptions {
+    Textures textures = Textures::copy;
+};
+
+// A mesh that read_mesh gave is written to its own format as its file was: other positions and normals, all else the
+// same. To another format goes what that can hold. Returns what was left behind and what else people should know, a
+// sentence each that begins with the file's name.
 // Writes beside `path`, then renames: a failure leaves nothing half-written. Doubles in text keep all their digits; STL
 // and GLB hold floats. UVs go to .obj .ply .glb, colours to .obj .ply .off .glb. Throws Error(argument) for an unknown
 // extension (and .gltf, which is only read), Error(file) where writing fails.
-void write_mesh(const Mesh& mesh, const std::filesystem::path& path);
+std::vector<std::string> write_mesh(const Mesh& mesh, const std::filesystem::path& path,
+                                    const WriteOptions& options = {});
+
+// What write_mesh would leave behind there, as a sentence; none where nothing is. Also for .glb and .html of a morph.
+std::vector<std::string> left_behind(const Mesh& mesh, const std::filesystem::path& path);
 
 // The extensions that read_mesh and write_mesh know, with the dot, in lower case.
 const std::vector<std::string>& mesh_extensions();

@@ -2,6 +2,7 @@
 // coordinates as MeshLab and ZBrush write them. Read here rather than by a library so that doubles stay doubles and a
 // message can name the line.
 #include "meshtween/io/formats.h"
+#include "meshtween/io/output.h"
 #include "meshtween/io/text.h"
 #include "meshtween/io/text_out.h"
 
@@ -121,7 +122,9 @@ PolygonMesh read_obj(std::string_view bytes, const std::filesystem::path& path) 
     return ObjReader(bytes, path).read();
 }
 
-void write_obj(const Mesh& mesh, std::ostream& stream) {
+namespace {
+
+void write_new(const Mesh& mesh, std::ostream& stream) {
     TextOut out(stream);
     for (Eigen::Index i = 0; i < mesh.positions.rows(); ++i) {
         out.put("v {} {} {}", mesh.positions(i, 0), mesh.positions(i, 1), mesh.positions(i, 2));
@@ -137,6 +140,13 @@ void write_obj(const Mesh& mesh, std::ostream& stream) {
                     uv(i, 2) + 1);
         else
             out.put("f {} {} {}\n", t(i, 0) + 1, t(i, 1) + 1, t(i, 2) + 1);
+}
+
+} // namespace
+
+std::vector<std::string> write_obj(const Mesh& mesh, const std::filesystem::path& path, const WriteOptions&) {
+    write_whole(path, [&](std::ostream& stream) { write_new(mesh, stream); });
+    return {};
 }
 
 } // namespace meshtween

@@ -1,5 +1,6 @@
 // The Object File Format of Geomview (manual, section "OFF"): text, three dimensions, with the prefixes ST, C and N.
 #include "meshtween/io/formats.h"
+#include "meshtween/io/output.h"
 #include "meshtween/io/text.h"
 #include "meshtween/io/text_out.h"
 
@@ -123,7 +124,9 @@ PolygonMesh read_off(std::string_view bytes, const std::filesystem::path& path) 
     return OffReader(bytes, path).read();
 }
 
-void write_off(const Mesh& mesh, std::ostream& stream) {
+namespace {
+
+void write_new(const Mesh& mesh, std::ostream& stream) {
     TextOut out(stream);
     const bool colored = mesh.colors.rows() > 0;
     out.put("{}OFF\n{} {} 0\n", colored ? "C" : "", mesh.positions.rows(), mesh.triangles.rows());
@@ -135,6 +138,13 @@ void write_off(const Mesh& mesh, std::ostream& stream) {
     }
     for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t)
         out.put("3 {} {} {}\n", mesh.triangles(t, 0), mesh.triangles(t, 1), mesh.triangles(t, 2));
+}
+
+} // namespace
+
+std::vector<std::string> write_off(const Mesh& mesh, const std::filesystem::path& path, const WriteOptions&) {
+    write_whole(path, [&](std::ostream& stream) { write_new(mesh, stream); });
+    return {};
 }
 
 } // namespace meshtween

@@ -1,6 +1,7 @@
 // PLY in binary: double coordinates, colours as bytes where they came from bytes, texture coordinates a vertex as s and
 // t, or a corner as MeshLab's face property where seams need it.
 #include "meshtween/io/formats.h"
+#include "meshtween/io/output.h"
 
 #include <fmt/format.h>
 
@@ -62,7 +63,9 @@ bool fits_bytes(const Colors& colors) {
 
 } // namespace
 
-void write_ply(const Mesh& mesh, std::ostream& stream) {
+namespace {
+
+void write_new(const Mesh& mesh, std::ostream& stream) {
     const bool colored = mesh.colors.rows() > 0, bytes = fits_bytes(mesh.colors), textured = mesh.texcoords.rows() > 0;
     const std::vector<int> texcoord = textured ? vertex_texcoords(mesh) : std::vector<int>();
     const bool seamless = textured && !texcoord.empty();
@@ -97,6 +100,13 @@ void write_ply(const Mesh& mesh, std::ostream& stream) {
         for (int k = 0; k < 3; ++k)
             for (int c = 0; c < 2; ++c) out.put(mesh.texcoords(mesh.texcoord_triangles(t, k), c));
     }
+}
+
+} // namespace
+
+std::vector<std::string> write_ply(const Mesh& mesh, const std::filesystem::path& path, const WriteOptions&) {
+    write_whole(path, [&](std::ostream& stream) { write_new(mesh, stream); });
+    return {};
 }
 
 } // namespace meshtween

@@ -109,6 +109,21 @@ std::vector<int> distinct_corners(const PolygonMesh& mesh, int begin, int end) {
     return result;
 }
 
+void set_texcoords(Mesh& mesh, PolygonMesh& polygons, const Triangles& cut) {
+    if (polygons.texcoord_corners.empty()) return;
+    // Corners without a texture coordinate share one more, at the origin.
+    const int none = static_cast<int>(polygons.texcoords.size() / 2);
+    if (std::find(polygons.texcoord_corners.begin(), polygons.texcoord_corners.end(), -1) !=
+        polygons.texcoord_corners.end())
+        polygons.texcoords.insert(polygons.texcoords.end(), {0.0F, 0.0F});
+    mesh.texcoords = Eigen::Map<const Texcoords>(polygons.texcoords.data(),
+                                                 static_cast<Eigen::Index>(polygons.texcoords.size() / 2), 2);
+    mesh.texcoord_triangles = cut.unaryExpr([&](int corner) {
+        const int index = polygons.texcoord_corners[static_cast<std::size_t>(corner)];
+        return index < 0 ? none : index;
+    });
+}
+
 } // namespace
 
 void share_texcoords(PolygonMesh& polygons, const std::vector<float>& wedges) {
@@ -187,19 +202,10 @@ Mesh cut_mesh(PolygonMesh&& polygons, const Triangles& cut) {
     file.corners = std::move(polygons.corners);
     file.ends = std::move(polygons.ends);
     file.cut = cut;
+    file.vertices = rows;
+    set_texcoords(mesh, polygons, cut);
+    file.attributes = attributes_key(mesh);
     mesh.file = std::make_shared<const MeshFile>(std::move(file));
-    if (polygons.texcoord_corners.empty()) return mesh;
-    // Corners without a texture coordinate share one more, at the origin.
-    const int none = static_cast<int>(polygons.texcoords.size() / 2);
-    if (std::find(polygons.texcoord_corners.begin(), polygons.texcoord_corners.end(), -1) !=
-        polygons.texcoord_corners.end())
-        polygons.texcoords.insert(polygons.texcoords.end(), {0.0F, 0.0F});
-    mesh.texcoords = Eigen::Map<const Texcoords>(polygons.texcoords.data(),
-                                                 static_cast<Eigen::Index>(polygons.texcoords.size() / 2), 2);
-    mesh.texcoord_triangles = cut.unaryExpr([&](int corner) {
-        const int index = polygons.texcoord_corners[static_cast<std::size_t>(corner)];
-        return index < 0 ? none : index;
-    });
     return mesh;
 }
 

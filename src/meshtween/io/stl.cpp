@@ -1,6 +1,7 @@
 // STL, text and binary. It has no vertices, only corners: those at equal coordinates become one vertex, in order of
 // first appearance.
 #include "meshtween/io/formats.h"
+#include "meshtween/io/output.h"
 #include "meshtween/io/text.h"
 
 #include "meshtween/geometry/measure.h"
@@ -132,7 +133,9 @@ PolygonMesh read_stl(std::string_view bytes, const std::filesystem::path& path) 
                          count, expected, bytes.size()));
 }
 
-void write_stl(const Mesh& mesh, std::ostream& stream) {
+namespace {
+
+void write_new(const Mesh& mesh, std::ostream& stream) {
     std::string header = "binary STL, written by meshtween";
     header.resize(header_size, '\0');
     const auto count = static_cast<std::uint32_t>(mesh.triangles.rows());
@@ -151,6 +154,13 @@ void write_stl(const Mesh& mesh, std::ostream& stream) {
         std::memcpy(raw.data(), values.data(), sizeof values);
         stream.write(raw.data(), raw.size());
     }
+}
+
+} // namespace
+
+std::vector<std::string> write_stl(const Mesh& mesh, const std::filesystem::path& path, const WriteOptions&) {
+    write_whole(path, [&](std::ostream& stream) { write_new(mesh, stream); });
+    return {};
 }
 
 } // namespace meshtween

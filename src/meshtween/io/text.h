@@ -13,6 +13,7 @@
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace meshtween {
 
@@ -22,6 +23,12 @@ namespace meshtween {
 
 // A word of the file as a message can show it: short, and without control characters.
 std::string shown(std::string_view word);
+
+// "a", "a and b", "a, b and c".
+std::string listed(const std::vector<std::string>& parts);
+
+// "1 face", "12 faces".
+std::string counted(std::size_t count, std::string_view noun);
 
 // Reads all of `word` as a number; false where it is none. Too large becomes infinite, too small zero. Locale plays no
 // part.
