@@ -31,6 +31,28 @@ std::string ply_binary(std::initializer_list<float> positions, std::initializer_
     return bytes;
 }
 
+constexpr const char* vtk_ascii = "# vtk DataFile Version 4.2\nx\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n"
+                                  "0 0 0 1 0 0 0 1 0\nPOLYGONS 1 4\n3 0 1 2\n";
+constexpr const char* vtp_ascii =
+    "<VTKFile type=\"PolyData\" version=\"0.1\">\n<PolyData><Piece NumberOfPoints=\"3\" NumberOfPolys=\"1\"><Points>"
+    "<DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 "
+    "0</DataArray></Points><Polys>"
+    "<DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 1 2</DataArray>"
+    "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">3</DataArray></Polys></Piece></PolyData></VTKFile>";
+
+std::string vtk_binary() {
+    std::string bytes = "# vtk DataFile Version 4.2\nx\nBINARY\nDATASET POLYDATA\nPOINTS 3 float\n";
+    bytes += "\0\0\0\0\0\0\0\0\0\0\0\0"s + "\x3f\x80\0\0\0\0\0\0\0\0\0\0"s + "\0\0\0\0\x3f\x80\0\0\0\0\0\0"s;
+    return bytes + "\nPOLYGONS 1 4\n" + "\0\0\0\3\0\0\0\0\0\0\0\1\0\0\0\2"s;
+}
+
+// The points in base64 with this header and compression.
+std::string vtp_encoded(const std::string& letters, const char* attributes = "") {
+    return with(
+        with(with(vtp_ascii, "format=\"ascii\">0 0 0", "format=\"binary\">0 0 0"), "0 0 0 1 0 0 0 1 0", letters),
+        "version=\"0.1\"", "version=\"0.1\" "s + attributes);
+}
+
 std::string stl_binary(std::uint32_t count, std::initializer_list<float> values) {
     std::string bytes(80, ' ');
     bytes.append(reinterpret_cast<const char*>(&count), 4);
@@ -151,6 +173,69 @@ TEST_F(BadFiles, EachIsToldWithItsPlace) {
         {"a.ply", with(ply_ascii, "element vertex 3\n", ""), "before any element"},
         {"a.ply", with(ply_ascii, "float z", "float w") + "0 0 0 1 0 0 0 1 0\n3 0 1 2", "have no x, y and z"},
         {"a.ply", with(ply_ascii, "element face", "elephant face"), "'elephant' is no PLY header line"},
+        // VTK, the older format
+        {"a.vtk", "", "the file is empty"},
+        {"a.vtk", garbage, "begins with '# vtk DataFile Version'"},
+        {"a.vtk", "# vtk DataFile Version 3.0\nx\n", "should be ASCII or BINARY"},
+        {"a.vtk", "# vtk DataFile Version 3.0\nx\nASCII\n", "holds no vertices"},
+        {"a.vtk", with(vtk_ascii, "POLYDATA", "STRUCTURED_GRID"), "kind STRUCTURED_GRID, which is not a surface"},
+        {"a.vtk", with(vtk_ascii, "POLYGONS", "ELEPHANTS"), "line 7: 'ELEPHANTS' is no section"},
+        {"a.vtk", with(vtk_ascii, "POINTS 3 float", "POINTS 3 real"), "'real' is no type of numbers"},
+        {"a.vtk", with(vtk_ascii, "POINTS 3", "POINTS three"), "line 5: the number of points should be a count"},
+        {"a.vtk", with(vtk_ascii, "POINTS 3", "POINTS 1000000000"), "3 times 1000000000 numbers"},
+        {"a.vtk", with(vtk_ascii, "1 0 0", "1 nan 0"), "point 1 (counted from 0): y is no finite number"},
+        {"a.vtk", with(vtk_ascii, "1 0 0", "1 zero 0"), "line 6: 'zero' should be one of the 9 numbers"},
+        {"a.vtk", with(vtk_ascii, "POLYGONS 1 4\n3 0 1 2\n", ""), "no faces"},
+        {"a.vtk", with(vtk_ascii, "3 0 1 2\n", "3 0 1      "), "the file ends after 3 of the 4 numbers"},
+        {"a.vtk", with(vtk_ascii, "3 0 1 2", "3 0 1 3"), "names vertex 3, but there are 3"},
+        {"a.vtk", with(vtk_ascii, "3 0 1 2", "3 0 1 -2"), "-2 is no vertex's number"},
+        {"a.vtk", with(vtk_ascii, "3 0 1 2", "9 0 1 2"), "cell 0 (counted from 0) does not fit"},
+        {"a.vtk", with(vtk_ascii, "POLYGONS 1 4\n3", "POLYGONS 1 5\n3 0"), "1 cells in 5 numbers, but they take 4"},
+        {"a.vtk", with(vtk_ascii, "POLYGONS 1", "POLYGONS 2"), "promises 2 cells in 4 numbers"},
+        {"a.vtk", with(vtk_ascii, "POLYGONS 1 4", "POLYGONS 1 9999999999"), "promises 9999999999 numbers"},
+        {"a.vtk",
+         with(vtk_ascii, "POLYGONS 1 4\n3 0 1 2",
+              "POLYGONS 2 3\nOFFSETS vtktypeint64\n0 4\nCONNECTIVITY "
+              "vtktypeint64\n0 1 2"),
+         "the offsets of POLYGONS do not rise from 0 to 3"},
+        {"a.vtk", with(vtk_ascii, "POLYGONS 1 4\n3 0 1 2", "POLYGONS 2 3\nOFFSETS vtktypeint64\n0 3\n0 1 2"),
+         "CONNECTIVITY is missing"},
+        {"a.vtk", with(with(vtk_ascii, "POLYDATA", "UNSTRUCTURED_GRID"), "POLYGONS", "CELLS"),
+         "1 cells, but 0 cell types"},
+        {"a.vtk", with(with(vtk_ascii, "POLYDATA", "UNSTRUCTURED_GRID"), "POLYGONS", "CELLS") + "CELL_TYPES 1\n12\n",
+         "holds hexahedra, not a surface"},
+        {"a.vtk", vtk_binary().substr(0, 100), "the header promises 9 numbers"},
+        {"a.vtk", vtk_binary().substr(0, vtk_binary().size() - 1), "the header promises 4 numbers"},
+        {"a.vtk", with(vtk_binary(), "POINTS 3", "POINTS 2000000000"), "2000000000"},
+        // VTK, the newer format
+        {"a.vtp", "", "the file is empty"},
+        {"a.vtp", garbage, "holds no <VTKFile>"},
+        {"a.vtp", ply_ascii, "holds no <VTKFile>"},
+        {"a.vtp", std::string(vtp_ascii).substr(0, 150), "line 2: "},
+        {"a.vtp", with(vtp_ascii, "PolyData", "UnstructuredGrid"), "the kind UnstructuredGrid, not PolyData"},
+        {"a.vtp", "<VTKFile type=\"PolyData\"><PolyData/></VTKFile>", "holds no vertices"},
+        {"a.vtp", with(vtp_ascii, "NumberOfPoints=\"3\"", "NumberOfPoints=\"1000000000\""),
+         "holds 9 numbers, but 3000000000 are promised"},
+        {"a.vtp", with(vtp_ascii, "NumberOfPolys=\"1\"", "NumberOfPolys=\"2\""), "holds 1 numbers, but 2 are promised"},
+        {"a.vtp", with(vtp_ascii, "NumberOfPolys=\"1\"", ""), "no faces"},
+        {"a.vtp", with(vtp_ascii, "\"connectivity\"", "\"corners\""), "have no connectivity and offsets"},
+        {"a.vtp", with(vtp_ascii, ">0 1 2<", ">0 1 3<"), "names vertex 3, but there are 3"},
+        {"a.vtp", with(vtp_ascii, ">0 1 2<", ">0 1 x<"), "'x' should be a number"},
+        {"a.vtp", with(vtp_ascii, ">3<", ">4<"), "offset 0 (counted from 0) of the polygons is 4"},
+        {"a.vtp", with(vtp_ascii, ">3<", ">2<"), "take 2 corners, but there are 3"},
+        {"a.vtp", with(vtp_ascii, "1 0 0", "1 nan 0"), "coordinate y of vertex 1"},
+        {"a.vtp", with(vtp_ascii, "\"ascii\"", "\"hieroglyphs\""), "'hieroglyphs' should be ascii, binary or appended"},
+        {"a.vtp", with(vtp_ascii, "\"ascii\"", "\"appended\" offset=\"7\""), "begins at byte 7 of the appended data"},
+        {"a.vtp", vtp_encoded("JAAAAAAA"), "its header promises 36 bytes"},
+        {"a.vtp", vtp_encoded("!!!!AAAA"), "letters that are not base64"},
+        {"a.vtp", vtp_encoded("AAAAAA=="), "holds 0 numbers, but 9 are promised"},
+        {"a.vtp", vtp_encoded("AQAAAACAAAAkAAAACQAAAA==AAAAAAAAAAAA", "compressor=\"vtkZLibDataCompressor\""),
+         "compressed block 0 of 1 is damaged"},
+        {"a.vtp", vtp_encoded("AQAAAP///38AAAAACQAAAA==AAAAAAAAAAAA", "compressor=\"vtkZLibDataCompressor\""),
+         "promise more than they can hold"},
+        {"a.vtp", vtp_encoded("////fwCAAAAkAAAACQAAAA==", "compressor=\"vtkZLibDataCompressor\""),
+         "promises 2147483647 compressed blocks"},
+        {"a.vtp", vtp_encoded("AAAA", "compressor=\"vtkLZ4DataCompressor\""), "compressed with vtkLZ4DataCompressor"},
     };
     for (const auto& row : rows) {
         const auto path = scratch.file(row.name, row.contents);
@@ -170,7 +255,7 @@ TEST_F(BadFiles, NoFileAFolderAnUnknownFormat) {
     EXPECT_NE(message_of(ErrorKind::file, [&] { read_mesh(scratch.folder()); }).find("is a folder"), std::string::npos);
     for (const char* name : {"a.xyz", "a", ".obj"}) {
         const std::string message = message_of(ErrorKind::argument, [&] { read_mesh(scratch.file(name, "x")); });
-        EXPECT_NE(message.find(".obj .ply .stl .off .glb .gltf"), std::string::npos) << message;
+        EXPECT_NE(message.find(".obj .ply .stl .off .glb .gltf .vtk .vtp"), std::string::npos) << message;
         message_of(ErrorKind::argument, [&] { write_mesh(unit_cube(), scratch.path(name)); });
     }
     EXPECT_NE(message_of(ErrorKind::argument, [&] { write_mesh(unit_cube(), scratch.path("a.gltf")); }).find(".glb"),
@@ -192,7 +277,7 @@ TEST_F(BadFiles, DamagedFilesNeverCrash) {
     std::mt19937 random(7);
     const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
     int taken = 0, refused = 0;
-    for (const char* name : {"a.obj", "a.ply", "a.stl", "a.off", "a.glb"}) {
+    for (const char* name : {"a.obj", "a.ply", "a.stl", "a.off", "a.glb", "a.vtk", "a.vtp"}) {
         write_mesh(mesh, scratch.path(name));
         const std::string whole = read_whole(scratch.path(name));
         for (int round = 0; round < 400; ++round) {

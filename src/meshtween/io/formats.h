@@ -16,6 +16,8 @@ PolygonMesh read_ply(std::string_view bytes, const std::filesystem::path& path);
 PolygonMesh read_stl(std::string_view bytes, const std::filesystem::path& path);
 PolygonMesh read_off(std::string_view bytes, const std::filesystem::path& path);
 PolygonMesh read_gltf(std::string_view bytes, const std::filesystem::path& path);
+PolygonMesh read_vtk(std::string_view bytes, const std::filesystem::path& path);
+PolygonMesh read_vtp(std::string_view bytes, const std::filesystem::path& path);
 
 // Each writes `path` through write_whole and returns sentences for people: what became of pictures beside it, what was
 // decided. What the format cannot hold is told by its FormatKeeps. Where is_rewritable, the mesh's own file comes back
@@ -24,6 +26,8 @@ std::vector<std::string> write_obj(const Mesh& mesh, const std::filesystem::path
 std::vector<std::string> write_ply(const Mesh& mesh, const std::filesystem::path& path, const WriteOptions& options);
 std::vector<std::string> write_stl(const Mesh& mesh, const std::filesystem::path& path, const WriteOptions& options);
 std::vector<std::string> write_off(const Mesh& mesh, const std::filesystem::path& path, const WriteOptions& options);
+std::vector<std::string> write_vtk(const Mesh& mesh, const std::filesystem::path& path, const WriteOptions& options);
+std::vector<std::string> write_vtp(const Mesh& mesh, const std::filesystem::path& path, const WriteOptions& options);
 
 // What a format can hold besides positions and triangles, as our writer writes it.
 struct FormatKeeps {

@@ -33,12 +33,14 @@ std::vector<std::string> write_glb(const Mesh& mesh, const fs::path& path, const
 constexpr FormatKeeps obj_keeps{.texcoords = true, .colors = true};
 constexpr FormatKeeps ply_keeps{.texcoords = true, .colors = true};
 constexpr FormatKeeps off_keeps{.colors = true};
+constexpr FormatKeeps vtk_keeps{.polygons = true, .texcoords = true, .colors = true};
 constexpr FormatKeeps gltf_keeps{.texcoords = true, .colors = true};
 
 constexpr std::array formats{
     Format{".obj", read_obj, write_obj, obj_keeps},   Format{".ply", read_ply, write_ply, ply_keeps},
     Format{".stl", read_stl, write_stl, {}},          Format{".off", read_off, write_off, off_keeps},
     Format{".glb", read_gltf, write_glb, gltf_keeps}, Format{".gltf", read_gltf, nullptr, gltf_keeps},
+    Format{".vtk", read_vtk, write_vtk, vtk_keeps},   Format{".vtp", read_vtp, write_vtp, vtk_keeps},
 };
 
 std::string lower_extension(const fs::path& path) {
