@@ -28,6 +28,7 @@ std::vector<std::string> write_stl(const Mesh& mesh, const std::filesystem::path
 std::vector<std::string> write_off(const Mesh& mesh, const std::filesystem::path& path, const WriteOptions& options);
 std::vector<std::string> write_vtk(const Mesh& mesh, const std::filesystem::path& path, const WriteOptions& options);
 std::vector<std::string> write_vtp(const Mesh& mesh, const std::filesystem::path& path, const WriteOptions& options);
+std::vector<std::string> write_usda(const Mesh& mesh, const std::filesystem::path& path, const WriteOptions& options);
 
 // What a format can hold besides positions and triangles, as our writer writes it.
 struct FormatKeeps {

@@ -34,6 +34,13 @@ constexpr FormatKeeps obj_keeps{.texcoords = true, .colors = true};
 constexpr FormatKeeps ply_keeps{.texcoords = true, .colors = true};
 constexpr FormatKeeps off_keeps{.colors = true};
 constexpr FormatKeeps vtk_keeps{.polygons = true, .texcoords = true, .colors = true};
+constexpr FormatKeeps usd_keeps{.polygons = true,
+                                .texcoords = true,
+                                .colors = true,
+                                .objects = true,
+                                .groups = true,
+                                .materials = true,
+                                .images = true};
 constexpr FormatKeeps gltf_keeps{.texcoords = true, .colors = true};
 
 constexpr std::array formats{
@@ -41,6 +48,7 @@ constexpr std::array formats{
     Format{".stl", read_stl, write_stl, {}},          Format{".off", read_off, write_off, off_keeps},
     Format{".glb", read_gltf, write_glb, gltf_keeps}, Format{".gltf", read_gltf, nullptr, gltf_keeps},
     Format{".vtk", read_vtk, write_vtk, vtk_keeps},   Format{".vtp", read_vtp, write_vtp, vtk_keeps},
+    Format{".usda", nullptr, write_usda, usd_keeps},
 };
 
 std::string lower_extension(const fs::path& path) {
@@ -68,6 +76,9 @@ PolygonMesh read_polygons(const fs::path& path) {
     std::error_code ignored;
     if (fs::is_directory(path, ignored)) read_whole(path); // which says so
     const Format& format = format_of(path);
+    if (format.read == nullptr)
+        throw Error(ErrorKind::argument, fmt::format("{}: {} is written but not read; save the model as .glb or .obj",
+                                                     path.string(), format.extension));
     std::string bytes = read_whole(path);
     if (bytes.empty()) bad_file(path, "the file is empty; export the model again");
     PolygonMesh polygons = format.read(bytes, path);
