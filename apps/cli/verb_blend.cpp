@@ -46,7 +46,8 @@ void add_blend(CLI::App& app, const Common& common) {
     verb->add_option("--weights", a->weights, "A number a mesh, with commas; all alike where none are given")
         ->delimiter(',')
         ->expected(1, 10000);
-    verb->add_option("-o,--output", a->outputs, "x.obj, .ply, .stl, .off, .glb or .png; may be given several times")
+    verb->add_option("-o,--output", a->outputs,
+                     "x.obj, .ply, .stl, .off, .glb, .vtk, .vtp, .usda or .png; may be given several times")
         ->required()
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -22,7 +22,8 @@ void add_fit(CLI::App& app, const Common& common) {
     verb->add_option("--markers", a->markers,
                      "Marker pairs in one file, or the source's and the target's file; without, the start is a guess")
         ->expected(1, 2);
-    verb->add_option("-o,--output", a->outputs, "x.obj, .ply, .stl, .off, .glb or .png; may be given several times")
+    verb->add_option("-o,--output", a->outputs,
+                     "x.obj, .ply, .stl, .off, .glb, .vtk, .vtp, .usda or .png; may be given several times")
         ->required()
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -38,7 +38,8 @@ void add_rotate(CLI::App& app, const Common& common) {
     verb->add_option("--axis", a->axis, "X,Y,Z of the axis' direction")->required()->delimiter(',')->expected(3);
     verb->add_option("--centre", a->centre, "X,Y,Z of a point on the axis")->required()->delimiter(',')->expected(3);
     verb->add_option("--angle", a->angle, "Degrees, counter-clockwise seen against the axis; any size")->required();
-    verb->add_option("-o,--output", a->outputs, "x.obj, .ply, .stl, .off, .glb or .png; may be given several times")
+    verb->add_option("-o,--output", a->outputs,
+                     "x.obj, .ply, .stl, .off, .glb, .vtk, .vtp, .usda or .png; may be given several times")
         ->required()
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -136,11 +136,9 @@ void check_still(const std::vector<Output>& outputs) {
     for (const auto& [kind, path] : outputs)
         if (kind == OutputKind::html || kind == OutputKind::sequence || kind == OutputKind::plot ||
             kind == OutputKind::film)
-            throw Error(
-                ErrorKind::argument,
-                fmt::format(
-                    "-o {} shows a whole morph, but here is one shape; use .obj, .ply, .stl, .off, .glb or .png",
-                    path.string()));
+            throw Error(ErrorKind::argument, fmt::format("-o {} shows a whole morph, but here is one shape; use .obj, "
+                                                         ".ply, .stl, .off, .glb, .vtk, .vtp, .usda or .png",
+                                                         path.string()));
 }
 
 Output output(const std::string& name) {
@@ -160,12 +158,10 @@ Output output(const std::string& name) {
     if (extension == ".apng") return {OutputKind::film, path};
     if (extension == ".svg") return {OutputKind::plot, path};
     if (is_mesh_extension(extension) && extension != ".gltf") return {OutputKind::mesh, path};
-    throw Error(
-        ErrorKind::argument,
-        fmt::format(
-            "-o {}: cannot tell what to write from \"{}\"; use .glb, .html, .png, .apng, .svg, .obj, .ply, .stl, .off, "
-            "or frame_####.obj for a numbered sequence",
-            name, extension));
+    throw Error(ErrorKind::argument, fmt::format("-o {}: cannot tell what to write from \"{}\"; use .glb, .html, .png, "
+                                                 ".apng, .svg, .obj, .ply, .stl, .off, .vtk, .vtp, .usda, "
+                                                 "or frame_####.obj for a numbered sequence",
+                                                 name, extension));
 }
 
 std::filesystem::path numbered(const std::filesystem::path& pattern, int number) {

@@ -20,7 +20,7 @@ enum class OutputKind {
     film,     // x.apng: a picture that moves
     sequence, // frame_####.obj (.ply .stl .off .glb .png): one numbered file a frame
     plot,     // x.svg: volume, area, strain, flips and self-intersections along the path
-    mesh,     // x.obj (.ply .stl .off): one mesh
+    mesh,     // x.obj (.ply .stl .off .vtk .vtp .usda): one mesh
 };
 
 struct Output {

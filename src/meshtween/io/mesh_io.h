@@ -1,4 +1,5 @@
-// Meshes from and to files; the format is the name's extension: .obj .ply .stl .off .glb .gltf
+// Meshes from and to files; the format is the name's extension: .obj .ply .stl .off .glb .gltf .vtk .vtp, and
+// .usda, which is only written
 #pragma once
 
 #include "meshtween/core/mesh.h"
