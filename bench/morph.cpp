@@ -37,8 +37,8 @@ const Bent& hundred_thousand() {
 FloatCurve curve_of(const Bent& scene) {
     const Morph path = morph(scene.from, scene.to, {.method = MorphMethod::linear});
     Curve c;
-    c.parameters = lobatto_nodes(nodes);
-    for (const double u : c.parameters) c.nodes.push_back(path.at(u));
+    c.basis = even_basis(nodes - 1, 1); // all nodes have weight
+    for (int k = 0; k < nodes; ++k) c.nodes.push_back(path.at(static_cast<double>(k) / (nodes - 1)));
     return to_float(c);
 }
 

@@ -47,16 +47,20 @@ void add_play_flags(CLI::App& verb, PathFlags& flags) {
         ->capture_default_str();
 }
 
+// The tolerance's parts for the curve and for the straight lines between an animation's keys; what is left is for
+// floats.
+constexpr double curve_part = 0.9, chord_part = 0.08;
+
 KeyOptions key_options(const PathWork& work, const PathFlags& flags) {
     KeyOptions keys;
     keys.morph = flags.options;
     keys.morph.method = morph_method(flags.method);
-    keys.curve.tolerance = flags.tolerance;
+    keys.curve.tolerance = curve_part * flags.tolerance;
     keys.closed = flags.loop;
     keys.times = flags.times;
     if (flags.targets > 0) {
         const int pieces = static_cast<int>(work.shapes.size()) - (flags.loop ? 0 : 1);
-        const int least = pieces == 1 ? 1 : 4 * pieces; // where pieces meet, cubics join them
+        const int least = pieces == 1 ? 1 : 3 * pieces; // where pieces meet, cubics join them
         if (flags.targets < least)
             throw Error(ErrorKind::argument, fmt::format("--targets {} is too few for a path of {} pieces; it takes {}",
                                                          flags.targets, pieces, least));
@@ -81,11 +85,19 @@ void tell_solve(const SolveReport& solve, Console& console, Json& row) {
                         solve.sweeps, solve.residual));
 }
 
-void tell_curve(const Curve& curve, const PathFlags& flags, Console& console, Json& row) {
-    row["curve"] = {{"meshes", curve.nodes.size()}, {"deviation", curve.deviation}, {"tolerance", flags.tolerance}};
-    const std::string found = fmt::format("{} morph targets play the path to {:.2g} of the diagonal",
-                                          curve.nodes.size() - 1, curve.deviation);
-    if (curve.deviation <= flags.tolerance)
+// How far what is written lies from the path: the curve itself, and what playing it adds.
+void tell_curve(const Curve& curve, const std::optional<WeightKeys>& keys, const PathFlags& flags, Console& console,
+                Json& row) {
+    const double deviation = curve.deviation + (keys ? keys->chords + keys->floats : 0);
+    row["curve"] = {{"meshes", curve.nodes.size()},
+                    {"degree", curve.basis.degree},
+                    {"deviation", deviation},
+                    {"tolerance", flags.tolerance}};
+    if (keys)
+        row["curve"]["animation"] = {{"keys", keys->times.size()}, {"chords", keys->chords}, {"floats", keys->floats}};
+    const std::string found =
+        fmt::format("{} morph targets play the path to {:.2g} of the diagonal", curve.nodes.size() - 1, deviation);
+    if (deviation <= flags.tolerance)
         console.note("path: " + found);
     else
         console.warn(fmt::format("{}, not to the tolerance of {:.2g}{}", found, flags.tolerance,
@@ -119,7 +131,7 @@ void write_one_shape(const PathWork& work, const PathFlags& flags, const KeyOpti
     } else {
         const KeyPath path = key_path(work.mesh, work.shapes, keys, progress);
         stop_if_interrupted();
-        tell_curve(path.curve, flags, console, row);
+        tell_curve(path.curve, {}, flags, console, row);
         tell_repair(path.repair, console, row);
         shape.positions = path.curve.at(u);
         solve = path.report;
@@ -135,7 +147,10 @@ void write_whole_path(const PathWork& work, const PathFlags& flags, const KeyOpt
     KeyPath path = key_path(work.mesh, work.shapes, keys, part_of(progress, 0, 0.6));
     stop_if_interrupted();
     tell_solve(path.report, console, row);
-    tell_curve(path.curve, flags, console, row);
+    playable.play = {flags.seconds, !flags.once && !flags.loop, ease_named(flags.ease), work.title,
+                     chord_part * flags.tolerance};
+    if (any_played(work.outputs)) playable.keys = weight_keys(path.curve, playable.play);
+    tell_curve(path.curve, playable.keys, flags, console, row);
     if (keys.repair) tell_repair(path.repair, console, row);
     playable.path = std::move(path.curve);
     const auto at = [&](double u) { return playable.path.at(u); };
@@ -143,12 +158,11 @@ void write_whole_path(const PathWork& work, const PathFlags& flags, const KeyOpt
                                      [](const Output& out) { return out.kind == OutputKind::plot; });
     if (work.measured || plotted)
         playable.quality =
-            path_quality(work.mesh.triangles, at, {.keys = key_times(playable.path)}, part_of(progress, 0.6, 0.8));
+            path_quality(work.mesh.triangles, at, {.keys = playable.path.keys}, part_of(progress, 0.6, 0.8));
     stop_if_interrupted();
     if (work.measured) row["shapes"] = to_json(playable.quality, work.mesh.triangles, at);
     playable.mesh = work.mesh;
     playable.mesh.positions = playable.path.nodes.front();
-    playable.play = {flags.seconds, !flags.once && !flags.loop, ease_named(flags.ease), work.title};
     playable.frames = flags.frames;
     playable.order = frame_order(flags);
     playable.before = work.before;

@@ -1,6 +1,7 @@
-// Writes what the validator and the browser look at: export_files FOLDER
+// Writes what the validator and the browser look at, and meshes for the program: export_files FOLDER FOLDER
 #include "meshtween/app/export.h"
 #include "meshtween/io/gltf_write.h"
+#include "meshtween/io/mesh_io.h"
 #include "meshtween/io/output.h"
 #include "meshtween/morph/keys.h"
 #include "support/twist.h"
@@ -36,23 +37,36 @@ Mesh painted(Mesh mesh) {
     return mesh;
 }
 
-// u and all vertices of the path there, for a few u, as JSON.
-std::string shapes_of(const std::function<Points(double)>& at) {
+// u, all vertices of the path there and the curve's weights, for a few u, as JSON.
+std::string shapes_of(const Curve& curve, const std::function<Points(double)>& at) {
     std::string text = "[";
     for (const double u : {0.0, 0.05, 0.13, 0.31, 0.44, 0.5, 0.62, 0.77, 0.9, 1.0}) {
         const Points p = at(u);
-        text += fmt::format("{}{{\"u\":{},\"vertices\":[{}]}}", text.size() > 1 ? "," : "", u,
-                            fmt::join(p.data(), p.data() + p.size(), ","));
+        text += fmt::format("{}{{\"u\":{},\"vertices\":[{}],\"weights\":[{}]}}", text.size() > 1 ? "," : "", u,
+                            fmt::join(p.data(), p.data() + p.size(), ","), fmt::join(curve.weights(u), ","));
     }
     return text + "]";
+}
+
+// A bar and the same one twisted, for the program to morph: bar.obj, bar_twisted_90.obj, bar_twisted_270.obj.
+void write_bars(const std::filesystem::path& folder) {
+    std::filesystem::create_directories(folder);
+    Mesh mesh = straight_bar();
+    write_mesh(mesh, folder / "bar.obj");
+    const Points straight = mesh.positions;
+    for (const int degrees : {90, 270}) {
+        mesh.positions = twist(straight, 3, degrees * std::numbers::pi / 180);
+        write_mesh(mesh, folder / fmt::format("bar_twisted_{}.obj", degrees));
+    }
 }
 
 } // namespace
 
 int main(int count, char** arguments) {
-    if (count != 2) return 1;
+    if (count != 3) return 1;
     const std::filesystem::path folder = arguments[1];
     std::filesystem::create_directories(folder);
+    write_bars(arguments[2]);
     const Mesh mesh = straight_bar();
     const Curve curve = twist_curve(mesh);
     const PlayOptions options{.seconds = 2, .ping_pong = true, .title = "A bar, twisted <by 180\u00b0>"};
@@ -61,7 +75,7 @@ int main(int count, char** arguments) {
     const std::string glb = morph_glb(mesh, curve, options);
     write_whole(folder / "morph.glb", glb);
     write_whole(folder / "morph.html", morph_html(glb, options));
-    write_whole(folder / "morph.json", shapes_of([&](double u) { return curve.at(u); }));
+    write_whole(folder / "morph.json", shapes_of(curve, [&](double u) { return curve.at(u); }));
     write_whole(folder / "morph_painted.glb",
                 morph_glb(painted(mesh), curve, {.seconds = 1, .ping_pong = false, .title = ""}));
 
@@ -72,17 +86,18 @@ int main(int count, char** arguments) {
     const std::string keys_glb = morph_glb(mesh, keys, {.ping_pong = false, .ease = Ease::in_out, .title = "Keys"});
     write_whole(folder / "keys.glb", keys_glb);
     write_whole(folder / "keys.html", morph_html(keys_glb, {.ease = Ease::in_out, .title = "Keys"}));
-    write_whole(folder / "keys.json", shapes_of([&](double u) { return keys.at(u); }));
+    write_whole(folder / "keys.json", shapes_of(keys, [&](double u) { return keys.at(u); }));
 
     const Morph bend = morph(mesh, turn(curve.nodes.back(), {1, 2, 0.5}, 2)); // the path itself, not its curve
-    write_whole(folder / "path.html", morph_html(morph_glb(mesh, meshtween::curve(bend))));
-    write_whole(folder / "path.json", shapes_of(bend.at));
+    const Curve bend_curve = meshtween::curve(bend);
+    write_whole(folder / "path.html", morph_html(morph_glb(mesh, bend_curve)));
+    write_whole(folder / "path.json", shapes_of(bend_curve, bend.at));
 
     Curve far = curve; // needs the node's translation
     for (Points& node : far.nodes) node.rowwise() += Point(2e5, -1e6, 3e5);
     const std::string far_glb = morph_glb(mesh, far);
     write_whole(folder / "far.glb", far_glb);
     write_whole(folder / "far.html", morph_html(far_glb, {.seconds = 2, .ping_pong = false, .title = ""}));
-    write_whole(folder / "far.json", shapes_of([&](double u) { return far.at(u); }));
+    write_whole(folder / "far.json", shapes_of(far, [&](double u) { return far.at(u); }));
     return 0;
 }

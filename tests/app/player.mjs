@@ -39,11 +39,12 @@ async function checkShapes(page, name, tolerance) {
         high[i % 3] = Math.max(high[i % 3], x);
     });
     const diagonal = Math.hypot(...high.map((x, c) => x - low[c]));
-    for (const { u, vertices } of shapes) {
-        const shown = await page.evaluate((at) => window.meshtween.then((m) => {
+    for (const { u, vertices, weights } of shapes) {
+        const [shown, shares] = await page.evaluate((at) => window.meshtween.then((m) => {
             m.setU(at);
-            return Array.from(m.vertices());
+            return [Array.from(m.vertices()), m.weights(at)];
         }), u);
+        assert.deepEqual(shares, weights, `${name} at ${u}: other weights than the library's`); // to the last bit
         assert.equal(shown.length, vertices.length);
         const worst = shown.reduce((most, x, i) => Math.max(most, Math.abs(x - vertices[i])), 0) / diagonal;
         console.log(`${name} at ${u}: ${worst.toExponential(2)} of the diagonal`);

@@ -181,7 +181,7 @@ const std::vector<Row> rows = {
      {},
      {"tween", "#/good.obj", "#/good.obj", "#/good.obj", "--targets", "3", "-o", "#/f.glb"},
      1,
-     {"--targets 3", "8"}},
+     {"--targets 3", "6"}},
     {"UnknownEase", {}, tween_with({"--ease", "bounce"}), 1, {"--ease", "bounce"}},
     {"NoSeconds", {}, tween_with({"--seconds", "0"}), 1, {"--seconds"}},
     {"LoopAndPingPong", {}, tween_with({"--loop", "--ping-pong"}), 1, {"--loop", "--ping-pong"}},

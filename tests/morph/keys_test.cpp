@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 namespace meshtween {
@@ -49,14 +50,31 @@ TEST(Keys, TwoShapesAreTheMethodsOwnPath) {
               1e-4 * diagonal(to));
 }
 
-TEST(Keys, OnePieceHasWeightAtATime) {
-    const Curve path = key_path(bar, three_shapes()).curve;
-    ASSERT_EQ(path.knots.size(), 3u);
-    EXPECT_EQ(path.parameters[static_cast<std::size_t>(path.knots[1])], 0.5);
-    const std::vector<double> weights = path.weights(0.3);
-    for (std::size_t k = 0; k < weights.size(); ++k)
-        EXPECT_EQ(weights[k] != 0, k <= static_cast<std::size_t>(path.knots[1])) << k;
-    EXPECT_NEAR(std::accumulate(weights.begin(), weights.end(), 0.0), 1, 1e-12);
+TEST(Keys, AreNodesAndOnePieceHasWeightAtATime) {
+    const std::vector<Points> shapes = three_shapes();
+    const Curve path = key_path(bar, shapes).curve;
+    EXPECT_EQ(path.keys, (std::vector<double>{0, 0.5, 1}));
+    EXPECT_EQ(path.at(0), shapes[0]);
+    EXPECT_EQ(path.at(0.5), shapes[1]);
+    EXPECT_EQ(path.at(1), shapes[2]);
+    EXPECT_EQ(nodes_on_path(path).size(), path.nodes.size());
+    const std::vector<double> before = path.weights(0.3), after = path.weights(0.7);
+    for (std::size_t k = 0; k < before.size(); ++k)
+        EXPECT_TRUE(before[k] == 0 || after[k] == 0 || path.weights(0.5)[k] == 1) << k;
+}
+
+// The derivatives of both pieces at a key, from the nodes beside it: exactly one velocity, to rounding.
+TEST(Keys, TheFirstDerivativeIsOneOnBothSides) {
+    KeyOptions options;
+    options.times = {0, 0.3, 1};
+    const Curve path = key_path(bar, three_shapes(), options).curve;
+    const std::vector<double> at = path.weights(0.3);
+    const auto key = static_cast<std::size_t>(std::max_element(at.begin(), at.end()) - at.begin());
+    const std::vector<double>& knots = path.basis.knots;
+    const double before = 0.3 - knots[key], after = knots[key + static_cast<std::size_t>(path.basis.degree) + 1] - 0.3;
+    const Points first = (path.nodes[key] - path.nodes[key - 1]) / before;
+    const Points second = (path.nodes[key + 1] - path.nodes[key]) / after;
+    EXPECT_LT(test::distance(first, second), 1e-9 * diagonal(bar.positions));
 }
 
 TEST(Keys, ATurnOfTheWayKeepsVolume) { // a bend, then a twist: no corner is cut across turns

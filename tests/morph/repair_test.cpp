@@ -26,34 +26,34 @@ struct Fingers {
         to = mesh.positions;
         to.bottomRows(n).rowwise() += Point(0, 10, 0);
     }
-    Curve path() const { return curve(morph(mesh, to, {.method = MorphMethod::linear})); }
+    Interpolant path() const { return interpolant(morph(mesh, to, {.method = MorphMethod::linear}), 1e-5); }
 };
 
-std::size_t cuts_along(const Curve& curve, const Triangles& triangles, int frames) {
+std::size_t cuts_along(const Interpolant& path, const Triangles& triangles, int frames) {
     std::size_t count = 0;
     for (int f = 1; f < frames; ++f)
-        count += self_intersections(curve.at(static_cast<double>(f) / frames), triangles).size();
+        count += self_intersections(path.at(static_cast<double>(f) / frames), triangles).size();
     return count;
 }
 
 TEST(Repair, PartsGoAroundEachOther) {
     for (const double lift : {0.0, 1.0}) {
         const Fingers fingers(lift);
-        const Curve before = fingers.path();
+        const Interpolant before = fingers.path();
         ASSERT_GT(cuts_along(before, fingers.mesh.triangles, 20), 100u);
         const Repaired after = repaired(before, fingers.mesh.triangles);
         EXPECT_GT(after.report.cuts_before, 50u);
         EXPECT_EQ(after.report.cuts_after, 0u);
         EXPECT_EQ(after.report.left, 0);
         EXPECT_EQ(after.report.contacts, 1);
-        EXPECT_EQ(cuts_along(after.curve, fingers.mesh.triangles, 20), 0u); // at most of these none was looked at
+        EXPECT_EQ(cuts_along(after.path, fingers.mesh.triangles, 20), 0u); // at most of these none was looked at
         EXPECT_LT(after.report.moved, RepairOptions{}.reach);
     }
 }
 
 TEST(Repair, EndsAndTheVelocitiesThereStay) {
     const Fingers fingers;
-    const Curve before = fingers.path(), after = repaired(before, fingers.mesh.triangles).curve;
+    const Interpolant before = fingers.path(), after = repaired(before, fingers.mesh.triangles).path;
     EXPECT_EQ(after.at(0), before.at(0));
     EXPECT_EQ(after.at(1), before.at(1));
     for (const double u : {1e-4, 1 - 1e-4})
@@ -67,22 +67,22 @@ TEST(Repair, TurningOnTheWayChangesNothing) {
     Morph turning;
     turning.at = [&, path = fingers.path()](double u) { return test::turned(path.at(u), 2 * u, axis, {3 * u, 0, 0}); };
     const Repaired one = repaired(fingers.path(), fingers.mesh.triangles, options);
-    const Repaired other = repaired(curve(turning, {.tolerance = 1e-7}), fingers.mesh.triangles, options);
+    const Repaired other = repaired(interpolant(turning, 1e-7), fingers.mesh.triangles, options);
     ASSERT_EQ(one.report.cuts_after, 0u);
     EXPECT_EQ(other.report.cuts_after, 0u);
     for (const double u : {0.3, 0.5}) {
-        const Points wanted = test::turned(one.curve.at(u), 2 * u, axis, {3 * u, 0, 0});
-        EXPECT_LT(test::distance(other.curve.at(u), wanted), 1e-3 * diagonal(fingers.to)) << u;
+        const Points wanted = test::turned(one.path.at(u), 2 * u, axis, {3 * u, 0, 0});
+        EXPECT_LT(test::distance(other.path.at(u), wanted), 1e-3 * diagonal(fingers.to)) << u;
     }
 }
 
 TEST(Repair, WhatDoesNotCutStays) {
     const Fingers fingers(3);
-    const Curve before = fingers.path();
+    const Interpolant before = fingers.path();
     const Repaired after = repaired(before, fingers.mesh.triangles);
     EXPECT_EQ(after.report.cuts_before, 0u);
     EXPECT_EQ(after.report.trials, 0);
-    EXPECT_EQ(after.curve.nodes, before.nodes);
+    EXPECT_EQ(after.path.nodes, before.nodes);
 }
 
 TEST(Repair, SaysWhatIsLeft) {
@@ -113,20 +113,20 @@ TEST(Repair, LeavesPlacesWhereAnEndIsCut) {
 TEST(Repair, SameBitsForAnyNumberOfThreads) {
     const Fingers fingers;
     set_threads(1);
-    const Curve one = repaired(fingers.path(), fingers.mesh.triangles).curve;
+    const Interpolant one = repaired(fingers.path(), fingers.mesh.triangles).path;
     set_threads(2);
-    const Curve two = repaired(fingers.path(), fingers.mesh.triangles).curve;
+    const Interpolant two = repaired(fingers.path(), fingers.mesh.triangles).path;
     set_threads(0);
     EXPECT_EQ(one.nodes, two.nodes);
 }
 
 TEST(Repair, CancelledAndBadOptions) {
     const Fingers fingers;
-    const Curve path = fingers.path();
+    const Interpolant path = fingers.path();
     const Repaired stopped =
         repaired(path, fingers.mesh.triangles, {}, [](double fraction, std::string_view) { return fraction < 0.2; });
     EXPECT_TRUE(stopped.cancelled);
-    EXPECT_EQ(stopped.curve.nodes, path.nodes);
+    EXPECT_EQ(stopped.path.nodes, path.nodes);
     EXPECT_THROW(repaired(path, fingers.mesh.triangles, {.frames = 0}), Error);
     EXPECT_THROW(repaired(path, fingers.mesh.triangles, {.reach = 0}), Error);
     EXPECT_THROW(repaired(path, fingers.mesh.triangles, {.rounds = -1}), Error);

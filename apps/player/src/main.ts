@@ -15,6 +15,7 @@ interface Options {
 export interface Hook {
     setU(u: number): void; // pauses
     u(): number;
+    weights(u: number): number[]; // of the base and all targets
     vertices(): Float64Array; // x, y, z each; those that seams repeat come after all others
     vertexCount: number;
     triangleCount: number;
@@ -117,6 +118,7 @@ function run(model: Model, stage: Stage, options: Options): Hook {
     return {
         setU: (u) => set({ playing: false, u }),
         u: () => clock.u,
+        weights: (u) => model.weights(u),
         vertices: () => model.vertices(),
         vertexCount: model.vertexCount,
         triangleCount: model.triangleCount,

@@ -1,7 +1,7 @@
 // The page's GLB: its shapes, and the mesh that shows one of those between them.
 import { Box3, Matrix4, Mesh, Vector3, type BufferAttribute, type Group } from 'three';
 import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
-import { lagrange, piecewise } from './lagrange';
+import { spline } from './spline';
 
 export interface Model {
     scene: Group;
@@ -10,6 +10,7 @@ export interface Model {
     outline: Float32Array; // x, y, z of some thousand points of all shapes: what a view should hold
     vertexCount: number;
     triangleCount: number;
+    weights(u: number): number[]; // of the base and all targets
     setU(u: number): void;
     vertices(): Float64Array; // x, y, z a vertex as three.js blends them now, in the file's coordinates
 }
@@ -34,17 +35,18 @@ export async function loadModel(glb: ArrayBuffer): Promise<Model> {
     mesh.castShadow = mesh.receiveShadow = true;
 
     const toScene = mesh.matrixWorld.clone();
-    const parameters = (mesh.userData['parameters'] as number[] | undefined) ?? [0];
-    const knots = mesh.userData['knots'] as number[] | undefined;
-    const weights = knots ? piecewise(parameters, knots) : lagrange(parameters);
+    const degree = (mesh.userData['degree'] as number | undefined) ?? 0;
+    const knots = (mesh.userData['knots'] as number[] | undefined) ?? [0, 1]; // a mesh alone
+    const weights = spline(degree, knots);
     const influences = mesh.morphTargetInfluences ?? [];
-    if (influences.length !== parameters.length - 1) throw new Error('the file does not say where its shapes lie');
+    if (influences.length !== knots.length - degree - 2) throw new Error('the file does not say how its shapes are blended');
     return {
         scene,
         mesh,
-        ...extentOf(mesh, toScene),
+        ...extentOf(mesh, toScene, weights),
         vertexCount: mesh.geometry.getAttribute('position').count,
         triangleCount: (mesh.geometry.index?.count ?? 0) / 3,
+        weights,
         // The base's weight is what the targets' leave of 1: its own.
         setU: (u) => weights(u).slice(1).forEach((weight, k) => (influences[k] = weight)),
         vertices: () => verticesOf(mesh, toScene),
@@ -59,25 +61,23 @@ function verticesOf(mesh: Mesh, toScene: Matrix4): Float64Array {
     return result;
 }
 
-// The box around all shapes, and points of them. One target at a time is exact: they are the path's own shapes.
-function extentOf(mesh: Mesh, toScene: Matrix4): Pick<Model, 'box' | 'outline'> {
+// The box around shapes all along the path, and points of them. The targets themselves lie beside it.
+function extentOf(mesh: Mesh, toScene: Matrix4, weights: (u: number) => number[]): Pick<Model, 'box' | 'outline'> {
     const base = mesh.geometry.getAttribute('position');
     const targets = (mesh.geometry.morphAttributes['position'] ?? []) as BufferAttribute[];
-    const stride = Math.ceil((base.count * (targets.length + 1)) / 20000);
+    const looks = targets.length === 0 ? 1 : base.count > 300_000 ? 9 : 17;
+    const stride = Math.ceil((base.count * looks) / 20000);
     const box = new Box3();
     const outline: number[] = [];
     const point = new Vector3(), offset = new Vector3();
-    let seen = 0;
-    const add = () => {
-        box.expandByPoint(point.applyMatrix4(toScene));
-        if (seen++ % stride === 0) outline.push(point.x, point.y, point.z);
-    };
-    for (let i = 0; i < base.count; ++i) {
-        point.fromBufferAttribute(base, i);
-        add();
-        for (const target of targets) {
-            point.fromBufferAttribute(base, i).add(offset.fromBufferAttribute(target, i));
-            add();
+    for (let look = 0; look < looks; ++look) {
+        const shares = weights(look / Math.max(1, looks - 1)).slice(1);
+        const parts = targets.flatMap((target, k) => (shares[k]! > 0 ? [{ target, share: shares[k]! }] : []));
+        for (let i = 0; i < base.count; ++i) {
+            point.fromBufferAttribute(base, i);
+            for (const { target, share } of parts) point.addScaledVector(offset.fromBufferAttribute(target, i), share);
+            box.expandByPoint(point.applyMatrix4(toScene));
+            if ((look * base.count + i) % stride === 0) outline.push(point.x, point.y, point.z);
         }
     }
     return { box, outline: new Float32Array(outline) };

@@ -51,9 +51,12 @@ std::string position_bytes(const Points& positions, const Frame& frame) {
 }
 
 std::string normal_bytes(const Points& positions, const Triangles& triangles) {
-    const Points normals = vertex_normals(positions, triangles);
-    return bytes<std::int16_t>(4 * normals.rows(), [&](Eigen::Index i) {
-        return i % 4 == 3 ? std::int16_t(0) : std::int16_t(std::lround(32767 * normals(i / 4, i % 4)));
+    return direction_bytes(vertex_normals(positions, triangles));
+}
+
+std::string direction_bytes(const Points& directions) {
+    return bytes<std::int16_t>(4 * directions.rows(), [&](Eigen::Index i) {
+        return i % 4 == 3 ? std::int16_t(0) : std::int16_t(std::lround(32767 * directions(i / 4, i % 4)));
     });
 }
 

@@ -22,6 +22,7 @@ Json to_json(const Frame& frame);
 // Little-endian buffers for the page.
 std::string position_bytes(const Points& positions, const Frame& frame);       // n x 3 float32
 std::string normal_bytes(const Points& positions, const Triangles& triangles); // n x 4 int16, the fourth 0
+std::string direction_bytes(const Points& directions);                         // the same; lengths of 1 at most
 std::string index_bytes(const Triangles& triangles);                           // m x 3 uint32
 std::string color_bytes(const Colors& colors);                                 // n x 4 uint8
 std::string value_bytes(const Eigen::VectorXd& values);                        // n float32

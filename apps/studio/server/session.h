@@ -18,15 +18,16 @@
 
 namespace meshtween::studio {
 
-// A path as the page plays it: few meshes, their weights made by the page from the parameters.
+// A path as the page plays it: few control meshes, their weights made by the page from the knots.
 struct PlayedPath {
     std::string asked; // the request that it answers
     Frame frame;
     Curve curve;
+    std::vector<std::string> normals; // of the control meshes, as the page draws them
     RepairReport repair;
 };
 Json told(const std::string& key,
-          const PlayedPath& path); // {key, asked, parameters, deviation, bent, cuts_left, frame}
+          const PlayedPath& path); // {key, asked, meshes, degree, knots, deviation, bent, cuts_left, frame}
 
 class Session {
 public:

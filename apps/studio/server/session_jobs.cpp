@@ -49,12 +49,25 @@ KeyPath path_between(const Mesh& source, const Fitted& fitted, PathWanted wanted
     return key_path(source, {source.positions, fitted.mesh.positions}, wanted.options, progress);
 }
 
+// All on one scale, on which the longest has length 1: the page shows the direction of their weighted sum.
+std::vector<std::string> drawn_normals(const Curve& curve, const Triangles& triangles) {
+    const std::vector<Points> normals = control_normals(curve, triangles);
+    double longest = 1;
+    for (const Points& n : normals)
+        if (n.rows() > 0) longest = std::max(longest, n.rowwise().norm().maxCoeff());
+    std::vector<std::string> result;
+    for (const Points& n : normals) result.push_back(direction_bytes(n / longest));
+    return result;
+}
+
 } // namespace
 
 Json told(const std::string& key, const PlayedPath& path) {
     return {{"key", key},
             {"asked", path.asked},
-            {"parameters", path.curve.parameters},
+            {"meshes", path.curve.nodes.size()},
+            {"degree", path.curve.basis.degree},
+            {"knots", path.curve.basis.knots},
             {"deviation", path.curve.deviation},
             {"bent", path.repair.contacts},
             {"cuts_left", path.repair.left},
@@ -133,6 +146,7 @@ void Session::start_path(const Json& request) {
         path->asked = asked;
         path->frame = frame_of(open.source->mesh.positions, open.target->mesh.positions);
         path->curve = std::move(found.curve);
+        path->normals = drawn_normals(path->curve, open.source->mesh.triangles);
         path->repair = found.repair;
         const std::lock_guard lock(mutex_);
         if (fitted_ != fitted) throw Error(ErrorKind::computation, "the fit changed meanwhile; ask again");
@@ -244,9 +258,8 @@ std::string Session::path_buffer(const std::string& key, std::size_t node, const
     }
     if (!path || !source || node >= path->curve.nodes.size())
         throw Error(ErrorKind::argument, "there is no such path; ask for it again");
-    const Points& positions = path->curve.nodes[node];
-    if (what == "positions") return position_bytes(positions, path->frame);
-    if (what == "normals") return normal_bytes(positions, source->mesh.triangles);
+    if (what == "positions") return position_bytes(path->curve.nodes[node], path->frame);
+    if (what == "normals") return path->normals[node];
     throw Error(ErrorKind::argument, "there is no such buffer");
 }
 

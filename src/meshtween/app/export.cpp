@@ -1,17 +1,12 @@
-// glTF plays weights on straight lines between keys; the curve's weights are polynomials. A chord over a step h of u is
-// off by at most h^2 |p''| / 8, which falls fourfold with every halving: a few chords tell how many are needed.
 #include "meshtween/app/export.h"
 
 #include "meshtween/core/error.h"
-#include "meshtween/core/parallel.h"
-#include "meshtween/geometry/measure.h"
 #include "meshtween/io/gltf_write.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <string_view>
 
 extern "C" const char meshtween_player_begin[], meshtween_player_end[]; // the page, built from apps/player
@@ -19,66 +14,35 @@ extern "C" const char meshtween_player_begin[], meshtween_player_end[]; // the p
 namespace meshtween {
 namespace {
 
-constexpr double key_tolerance = 1e-5; // of the diagonal: how far a viewer's frame may lie beside the curve
-constexpr int most_keys = 4096;
-
-// The largest distance between the curve and `count` chords of it, equal in time, measured at their middles.
-double chord_error(const Curve& curve, Ease kind, int count) {
-    const auto shapes = static_cast<Eigen::Index>(curve.nodes.size());
-    Eigen::MatrixXd gaps(count, shapes); // weights in the middle less the mean of those at the ends
-    const auto weights = [&](double t) -> Eigen::RowVectorXd {
-        const std::vector<double> w = curve.weights(ease(kind, t));
-        return Eigen::Map<const Eigen::RowVectorXd>(w.data(), shapes);
-    };
-    for (int i = 0; i < count; ++i) {
-        const double a = static_cast<double>(i) / count, b = (i + 1.0) / count;
-        gaps.row(i) = weights((a + b) / 2) - (weights(a) + weights(b)) / 2;
-    }
-    const Eigen::Index vertices = curve.nodes.front().rows();
-    std::vector<double> worst(static_cast<std::size_t>(vertices), 0.0);
-    parallel_for(vertices, [&](std::ptrdiff_t v) {
-        Eigen::Matrix<double, Eigen::Dynamic, 3> places(shapes, 3);
-        for (Eigen::Index k = 0; k < shapes; ++k) places.row(k) = curve.nodes[static_cast<std::size_t>(k)].row(v);
-        worst[static_cast<std::size_t>(v)] = (gaps * places).rowwise().squaredNorm().maxCoeff();
-    });
-    return worst.empty() ? 0 : std::sqrt(*std::max_element(worst.begin(), worst.end()));
+// A target that lies on the path says which key it is; the others are numbered.
+std::vector<std::string> target_names(const Curve& curve) {
+    std::vector<std::string> names;
+    const std::vector<bool> on = nodes_on_path(curve);
+    int key = 1, control = 0; // the base is the first key
+    for (std::size_t k = 1; k < on.size(); ++k)
+        names.push_back(on[k] ? fmt::format("key {}", ++key) : fmt::format("control {}", ++control));
+    return names;
 }
 
-// How many equal steps of time keep straight weights within the tolerance.
-int steps_for(const Curve& curve, Ease kind) {
-    const int first = std::max<int>(16, 4 * static_cast<int>(curve.nodes.size()));
-    const double error = chord_error(curve, kind, first), allowed = key_tolerance * diagonal(curve.nodes.front());
-    if (!(allowed > 0) || error <= 0) return 1;
-    // A tenth more: the first chords are not yet quite parabolas.
-    return static_cast<int>(std::clamp(std::ceil(1.1 * first * std::sqrt(error / allowed)), 1.0, most_keys * 1.0));
-}
-
-GltfMorph animation(const Curve& curve, const PlayOptions& options) {
+GltfMorph animation(const Curve& curve, const WeightKeys& keys) {
     GltfMorph morph;
     morph.shapes = std::span(curve.nodes).subspan(1);
-    for (std::size_t k = 1; k < curve.nodes.size(); ++k)
-        morph.names.push_back(fmt::format("u = {:.6g}", curve.parameters[k]));
-    morph.parameters = curve.parameters;
-    morph.knots = curve.knots;
-    const int steps = steps_for(curve, options.ease), last = options.ping_pong ? 2 * steps : steps;
-    for (int i = 0; i <= last; ++i) {
-        const double t = 1 - std::abs(1 - static_cast<double>(i) / steps);
-        morph.times.push_back(static_cast<float>(options.seconds * i / steps));
-        const std::vector<double> weights = curve.weights(ease(options.ease, std::clamp(t, 0.0, 1.0)));
-        for (std::size_t k = 1; k < weights.size(); ++k) morph.weights.push_back(static_cast<float>(weights[k]));
-    }
+    morph.names = target_names(curve);
+    morph.degree = curve.basis.degree;
+    morph.knots = curve.basis.knots;
+    morph.times = keys.times;
+    morph.weights = keys.weights;
+    const CurveSites sites = curve_sites(curve);
+    morph.normal_fit = sites.fit;
+    morph.on_path = [&curve, at = sites.sites](std::size_t s) { return curve.at(at[s]); };
     return morph;
 }
 
-void check(const Mesh& mesh, const Curve& curve, const PlayOptions& options) {
-    if (curve.nodes.size() < 2 || curve.parameters.size() != curve.nodes.size())
-        throw Error(ErrorKind::argument, "a morph to play needs at least two shapes and a parameter for each");
+void check(const Mesh& mesh, const Curve& curve) {
     for (const Points& node : curve.nodes)
         if (node.rows() != mesh.positions.rows())
             throw Error(ErrorKind::argument, fmt::format("a shape of the curve has {} vertices, but the mesh has {}",
                                                          node.rows(), mesh.positions.rows()));
-    if (!(options.seconds >= 1e-3 && options.seconds <= 1e5))
-        throw Error(ErrorKind::argument, fmt::format("a morph of {} seconds cannot be played", options.seconds));
 }
 
 std::string base64(std::string_view bytes) {
@@ -121,10 +85,15 @@ std::string html_escaped(std::string_view text) {
 } // namespace
 
 std::string morph_glb(const Mesh& mesh, const Curve& curve, const PlayOptions& options) {
-    check(mesh, curve, options);
+    check(mesh, curve);
+    return morph_glb(mesh, curve, weight_keys(curve, options), options.title);
+}
+
+std::string morph_glb(const Mesh& mesh, const Curve& curve, const WeightKeys& keys, const std::string& title) {
+    check(mesh, curve);
     Mesh base = mesh;
     base.positions = curve.nodes.front();
-    return mesh_glb(base, animation(curve, options), options.title.empty() ? "morph" : options.title);
+    return mesh_glb(base, animation(curve, keys), title.empty() ? "morph" : title);
 }
 
 std::string morph_html(const std::string& glb, const PlayOptions& options) {

@@ -43,7 +43,13 @@ void note(Written& written, const std::vector<std::string>& notes, bool first = 
 }
 
 Film film_of(const Playable& playable) {
-    return {playable.mesh, playable.path.nodes};
+    constexpr int steps = 8; // from key to key
+    const std::vector<double>& keys = playable.path.keys;
+    std::vector<Points> examples;
+    for (std::size_t p = 0; p + 1 < keys.size(); ++p)
+        for (int i = p == 0 ? 0 : 1; i <= steps; ++i)
+            examples.push_back(playable.path.at(keys[p] + (keys[p + 1] - keys[p]) * i / steps));
+    return {playable.mesh, examples};
 }
 
 void write_sequence(const Playable& playable, const std::filesystem::path& pattern, const Progress& progress,
@@ -90,7 +96,7 @@ bool write_tiles(const std::vector<Tile>& tiles, const std::filesystem::path& pa
 
 bool write_sheet(const Playable& playable, const std::filesystem::path& path, const Progress& progress) {
     std::vector<Tile> tiles = playable.before;
-    const std::vector<double> keys = key_times(playable.path);
+    const std::vector<double>& keys = playable.path.keys;
     const int parts = keys.size() == 2 ? 4 : 2; // tiles from key to key
     for (std::size_t p = 0; p + 1 < keys.size(); ++p)
         for (int i = p == 0 ? 0 : 1; i <= parts; ++i) {
@@ -106,7 +112,7 @@ void write_plot(const Playable& playable, const std::filesystem::path& path, con
     PathQuality quality = playable.quality;
     if (quality.frames.empty())
         quality = path_quality(
-            playable.mesh.triangles, [&](double u) { return playable.path.at(u); }, {.keys = key_times(playable.path)},
+            playable.mesh.triangles, [&](double u) { return playable.path.at(u); }, {.keys = playable.path.keys},
             progress);
     written.cancelled = quality.cancelled;
     if (!written.cancelled) write_whole(path, path_plot({{playable.play.title, quality}}));
@@ -139,6 +145,11 @@ void check_still(const std::vector<Output>& outputs) {
             throw Error(ErrorKind::argument, fmt::format("-o {} shows a whole morph, but here is one shape; use .obj, "
                                                          ".ply, .stl, .off, .glb, .vtk, .vtp, .usda or .png",
                                                          path.string()));
+}
+
+bool any_played(const std::vector<Output>& outputs) {
+    return std::any_of(outputs.begin(), outputs.end(),
+                       [](const Output& out) { return out.kind == OutputKind::glb || out.kind == OutputKind::html; });
 }
 
 Output output(const std::string& name) {
@@ -186,9 +197,10 @@ Written write_outputs(const Playable& playable, const std::vector<Output>& outpu
     check_playable(outputs);
     Written written;
     std::string glb;
-    if (std::any_of(outputs.begin(), outputs.end(),
-                    [](const Output& out) { return out.kind == OutputKind::glb || out.kind == OutputKind::html; }))
-        glb = morph_glb(playable.mesh, playable.path, playable.play);
+    if (any_played(outputs))
+        glb =
+            morph_glb(playable.mesh, playable.path,
+                      playable.keys ? *playable.keys : weight_keys(playable.path, playable.play), playable.play.title);
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         const auto& [kind, path] = outputs[i];
         const double count = double(outputs.size());

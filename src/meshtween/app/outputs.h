@@ -8,6 +8,7 @@
 #include "meshtween/morph/path_quality.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,9 @@ Output output(const std::string& name);
 void check_playable(const std::vector<Output>& outputs);
 void check_still(const std::vector<Output>& outputs);
 
+// Whether one of them holds morph targets and an animation.
+bool any_played(const std::vector<Output>& outputs);
+
 // The file's name for one frame of a sequence: the run of #s becomes the number with leading zeros.
 std::filesystem::path numbered(const std::filesystem::path& pattern, int number);
 
@@ -53,10 +57,11 @@ struct Playable {
     PlayOptions play;
     int frames = 11; // of a sequence or a film, from the first shape to the last
     FrameOrder order = FrameOrder::there;
-    std::vector<Tile> before; // tiles that a contact sheet shows before the in-betweens
-    bool ends_before = false; // both ends are among them
-    PathQuality quality;      // for a plot; measured where it is empty and a plot is wanted
-    WriteOptions writing;     // of meshes
+    std::vector<Tile> before;       // tiles that a contact sheet shows before the in-betweens
+    bool ends_before = false;       // both ends are among them
+    std::optional<WeightKeys> keys; // of the GLB's animation; made where there are none and a GLB or a page is wanted
+    PathQuality quality;            // for a plot; measured where it is empty and a plot is wanted
+    WriteOptions writing;           // of meshes
 };
 
 // What the writing found out, for the report.

@@ -129,9 +129,9 @@ void check_input(const Mesh& mesh, const GltfMorph& morph, const std::string& na
     if (mesh.colors.rows() > 0 && (mesh.colors.rows() != mesh.positions.rows() || !mesh.colors.allFinite()))
         refuse("vertex colours must be finite and as many as vertices");
     const std::size_t count = morph.shapes.size();
-    if (morph.names.size() != count || (count > 0 && morph.parameters.size() != count + 1) ||
-        morph.weights.size() != count * morph.times.size())
-        refuse("names, parameters and weights of the shapes do not agree in number");
+    if (morph.names.size() != count || morph.weights.size() != count * morph.times.size() ||
+        (count > 0 && morph.knots.size() != count + 2 + static_cast<std::size_t>(std::max(0, morph.degree))))
+        refuse("names, knots and weights of the shapes do not agree in number");
     for (std::size_t k = 0; k < count; ++k) {
         if (morph.shapes[k].rows() != mesh.positions.rows())
             refuse(fmt::format("shape \"{}\" has {} vertices, but the mesh has {}", morph.names[k],
@@ -142,12 +142,6 @@ void check_input(const Mesh& mesh, const GltfMorph& morph, const std::string& na
     if (rows * 24 * static_cast<double>(count + 1) > 4e9)
         refuse(fmt::format("{} shapes of {} vertices do not fit into one GLB, which ends at 4 GiB: use fewer shapes",
                            count + 1, mesh.positions.rows()));
-}
-
-// Float has 24 bits: a mesh a few diagonals away from the origin keeps 1e-6 of its diagonal, one further away does not.
-Point origin_of(const Points& positions) {
-    const Point centre = (positions.colwise().minCoeff() + positions.colwise().maxCoeff()) / 2;
-    return centre.norm() > 4 * diagonal(positions) ? centre : Point(0, 0, 0);
 }
 
 // Unit normals for all vertices: the validator refuses a zero, which vertices without area have.
@@ -210,6 +204,23 @@ void append_animation(Glb& glb, const GltfMorph& morph) {
                       {"channels", json::array({{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}})}}});
 }
 
+// Normals of the base and all shapes.
+std::vector<Points> all_normals(const Mesh& mesh, const GltfMorph& morph) {
+    std::vector<Points> normals{shading_normals(mesh.positions, mesh.triangles)};
+    if (morph.normal_fit.size() == 0) {
+        for (const Points& shape : morph.shapes) normals.push_back(shading_normals(shape, mesh.triangles));
+        return normals;
+    }
+    normals.resize(morph.shapes.size() + 1, Points::Zero(mesh.positions.rows(), 3));
+    for (Eigen::Index s = 0; s < morph.normal_fit.cols(); ++s) {
+        const Points on = shading_normals(morph.on_path(static_cast<std::size_t>(s)), mesh.triangles);
+        for (std::size_t k = 1; k < normals.size(); ++k)
+            if (const double share = morph.normal_fit(static_cast<Eigen::Index>(k), s); share != 0)
+                parallel_for(on.rows(), [&](std::ptrdiff_t i) { normals[k].row(i) += share * on.row(i); });
+    }
+    return normals;
+}
+
 std::string packed(Glb glb) {
     glb.bin.resize((glb.bin.size() + 3) / 4 * 4, '\0');
     glb.root["buffers"] = json::array({{{"byteLength", glb.bin.size()}}});
@@ -238,28 +249,35 @@ std::string packed(Glb glb) {
 
 } // namespace
 
+// Float has 24 bits: a mesh a few diagonals away from the origin keeps 1e-6 of its diagonal, one further away does not.
+Point glb_origin(const Points& positions) {
+    const Point centre = (positions.colwise().minCoeff() + positions.colwise().maxCoeff()) / 2;
+    return centre.norm() > 4 * diagonal(positions) ? centre : Point(0, 0, 0);
+}
+
 std::string mesh_glb(const Mesh& mesh, const std::string& name) {
     return mesh_glb(mesh, GltfMorph{}, name);
 }
 
 std::string mesh_glb(const Mesh& mesh, const GltfMorph& morph, const std::string& name) {
     check_input(mesh, morph, name);
-    const Point origin = origin_of(mesh.positions);
+    const Point origin = glb_origin(mesh.positions);
     const Unseamed vertices = split_seams(mesh);
     const auto moved = [&](const Points& positions) -> Points { return positions.rowwise() - origin; };
 
     Glb glb;
     glb.root["asset"] = {{"version", "2.0"}, {"generator", std::string("meshtween ") + version()}};
     const auto positions = gathered(moved(mesh.positions), vertices.vertices);
-    const auto normals = gathered(shading_normals(mesh.positions, mesh.triangles), vertices.vertices);
+    const std::vector<Points> shading = all_normals(mesh, morph);
+    const auto normals = gathered(shading.front(), vertices.vertices);
     json primitive = {{"mode", 4}, {"material", 0}};
     primitive["indices"] = append_indices(glb, vertices.triangles, vertices.vertices.size());
     primitive["attributes"]["POSITION"] = append(glb, positions, array_buffer, true);
     primitive["attributes"]["NORMAL"] = append(glb, normals, array_buffer);
     append_texcoords_and_colors(glb, primitive["attributes"], mesh, vertices);
-    for (const Points& shape : morph.shapes) {
-        const auto offsets = gathered(moved(shape), vertices.vertices, positions);
-        const auto turns = gathered(shading_normals(shape, mesh.triangles), vertices.vertices, normals);
+    for (std::size_t k = 0; k < morph.shapes.size(); ++k) {
+        const auto offsets = gathered(moved(morph.shapes[k]), vertices.vertices, positions);
+        const auto turns = gathered(shading[k + 1], vertices.vertices, normals);
         const int position = append(glb, offsets, array_buffer, true);
         primitive["targets"].push_back({{"POSITION", position}, {"NORMAL", append(glb, turns, array_buffer)}});
     }
@@ -269,8 +287,7 @@ std::string mesh_glb(const Mesh& mesh, const GltfMorph& morph, const std::string
     json part = {{"name", name}, {"primitives", json::array({primitive})}};
     if (!morph.shapes.empty()) {
         part["weights"] = std::vector<double>(morph.shapes.size(), 0);
-        part["extras"] = {{"targetNames", morph.names}, {"parameters", morph.parameters}};
-        if (!morph.knots.empty()) part["extras"]["knots"] = morph.knots;
+        part["extras"] = {{"targetNames", morph.names}, {"degree", morph.degree}, {"knots", morph.knots}};
     }
     const std::array<double, 4> base =
         mesh.colors.rows() > 0 ? std::array{1.0, 1.0, 1.0, 1.0} : std::array{0.70, 0.625, 0.555, 1.0}; // clay

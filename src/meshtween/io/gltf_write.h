@@ -3,6 +3,7 @@
 
 #include "meshtween/core/mesh.h"
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,11 +14,19 @@ namespace meshtween {
 struct GltfMorph {
     std::span<const Points> shapes; // K shapes of the mesh's connectivity, n x 3 each
     std::vector<std::string> names; // K
-    std::vector<double> parameters; // K + 1: where on the path the base and the shapes lie; for players, in the extras
     std::vector<float> times;       // T seconds, ascending from 0
     std::vector<float> weights;     // T x K, a row a time
-    std::vector<int> knots = {};    // where a path of several pieces passes from one to the next; in the extras too
+    // The B-spline that the weights are of, with K + 1 weights, the base's first: for players, in the extras.
+    int degree = 0;
+    std::vector<double> knots;
+    // Shapes that lie beside the path have no normals of their own: those of shape k (0 the base) are sum_s
+    // normal_fit(k, s) of the normals of on_path(s). Empty: the shapes' own.
+    Eigen::MatrixXd normal_fit;
+    std::function<Points(std::size_t)> on_path;
 };
+
+// Where positions are written relative to: the origin, or the centre of a mesh that lies far from it.
+Point glb_origin(const Points& positions);
 
 // Positions, normals, colours and UVs as one GLB. Vertex i of the file is vertex i of the mesh; a vertex with several
 // UVs (a seam) is repeated after all others. Positions are float: where the mesh lies far from the origin for its size,

@@ -1,130 +1,147 @@
-// Berrut and Trefethen, Barycentric Lagrange Interpolation, 2004.
 #include "meshtween/morph/curve.h"
 
 #include "meshtween/core/error.h"
-#include "meshtween/core/parallel.h"
 #include "meshtween/geometry/measure.h"
+#include "meshtween/morph/spline_fit.h"
 
-#include <cmath>
-#include <map>
-#include <numbers>
+#include <Eigen/QR>
+
+#include <algorithm>
 
 namespace meshtween {
 namespace {
 
-double largest_distance(const Points& a, const Points& b) {
-    return a.rows() == 0 ? 0 : (a - b).rowwise().norm().maxCoeff();
-}
+// Part of the tolerance that the path's own polynomial may take of it.
+constexpr double sampled_part = 0.1;
 
-// The path's shapes by parameter, each asked for once.
-struct Sampler {
-    const Morph& morph;
-    const Progress& progress;
-    std::map<double, Points> known;
-    int planned = 3; // evaluations up to the end of the step under way
+// Between the sites at which a spline is compared with its path, it may be a little further off.
+constexpr double between_sites = 1.02;
 
-    // False where the work was cancelled.
-    bool sample(const std::vector<double>& parameters) {
-        for (const double u : parameters) planned += known.count(u) == 0;
-        for (const double u : parameters) {
-            if (known.count(u)) continue;
-            if (!keep_going(progress, static_cast<double>(known.size()) / std::max(planned, 34), "in-between shapes"))
-                return false;
-            known.emplace(u, morph.at(u));
-        }
-        return true;
+// The knots of one piece after the other; those between stand `degree` times, so that a node lies there.
+SplineBasis joined(const std::vector<SplineBasis>& bases, const std::vector<double>& times) {
+    SplineBasis whole{bases.front().degree, {}};
+    const auto degree = static_cast<std::size_t>(whole.degree);
+    whole.knots.push_back(0);
+    for (std::size_t p = 0; p < bases.size(); ++p) {
+        const double start = times[p], length = times[p + 1] - start;
+        if (p == 0) whole.knots.insert(whole.knots.end(), degree, 0.0);
+        for (std::size_t k = degree + 1; k < bases[p].size(); ++k)
+            whole.knots.push_back(start + length * bases[p].knots[k]);
+        whole.knots.insert(whole.knots.end(), degree, times[p + 1]);
     }
-};
-
-// The parameters at which the curve of K nodes is compared with the path: the nodes that K - 1 doubled adds, and for
-// two nodes, where that is one point only, those of the step after it.
-std::vector<double> checks(int count) {
-    return lobatto_nodes(count == 2 ? 5 : 2 * count - 1);
+    whole.knots.push_back(1);
+    return whole;
 }
 
 } // namespace
 
-std::vector<double> lobatto_nodes(int count) {
-    std::vector<double> nodes;
-    for (int k = 0; k < count; ++k) {
-        const double s = std::sin(std::numbers::pi * k / (2.0 * (count - 1)));
-        nodes.push_back(k + 1 == count ? 1 : s * s);
-    }
-    return nodes;
+void check(const CurveOptions& options) {
+    if (!(options.tolerance > 0)) throw Error(ErrorKind::argument, "the curve's tolerance must be above 0");
+    if (options.max_nodes < 2) throw Error(ErrorKind::argument, "a curve needs at least 2 nodes: its ends");
 }
 
 std::vector<double> Curve::weights(double u) const {
-    std::vector<double> w(parameters.size(), 0);
-    std::size_t first = 0, last = w.size() - 1;
-    for (std::size_t p = 0; p + 1 < knots.size(); ++p) {
-        first = static_cast<std::size_t>(knots[p]), last = static_cast<std::size_t>(knots[p + 1]);
-        if (u <= parameters[last]) break;
-    }
-    double sum = 0;
-    for (std::size_t k = first; k <= last; ++k) {
-        if (u == parameters[k]) {
-            std::fill(w.begin(), w.end(), 0);
-            w[k] = 1;
-            return w;
-        }
-        const bool end = k == first || k == last;
-        w[k] = ((k - first) % 2 ? -1 : 1) * (end ? 0.5 : 1.0) / (u - parameters[k]);
-        sum += w[k];
-    }
-    for (double& weight : w) weight /= sum;
-    return w;
-}
-
-std::vector<double> key_times(const Curve& curve) {
-    if (curve.knots.empty()) return {0, 1};
-    std::vector<double> times;
-    for (const int knot : curve.knots) times.push_back(curve.parameters[static_cast<std::size_t>(knot)]);
-    return times;
+    return basis.weights(u);
 }
 
 Points Curve::at(double u) const {
-    const std::vector<double> w = weights(u);
-    Points result(nodes.front().rows(), 3);
-    parallel_ranges(result.rows(), 4096, [&](Eigen::Index begin, Eigen::Index end) {
-        auto block = result.middleRows(begin, end - begin);
-        block = w[0] * nodes[0].middleRows(begin, end - begin);
-        for (std::size_t k = 1; k < w.size(); ++k)
-            if (w[k] != 0) block += w[k] * nodes[k].middleRows(begin, end - begin);
-    });
+    return weighted_sum(nodes, weights(u));
+}
+
+std::vector<bool> nodes_on_path(const Curve& curve) {
+    std::vector<bool> on(curve.basis.size(), false);
+    for (const double key : curve.keys) {
+        const std::vector<double> w = curve.weights(key);
+        on[static_cast<std::size_t>(std::max_element(w.begin(), w.end()) - w.begin())] = true;
+    }
+    return on;
+}
+
+CurveSites curve_sites(const Curve& curve) {
+    CurveSites result;
+    const std::vector<double> spans = curve.basis.spans();
+    const auto count = static_cast<Eigen::Index>(curve.basis.size());
+    const int each = curve.basis.degree + 2;
+    for (std::size_t s = 0; s + 1 < spans.size(); ++s)
+        for (const double t : lobatto_nodes(each))
+            if (t > 0 || s == 0)
+                result.sites.push_back(t == 1 ? spans[s + 1] : spans[s] + (spans[s + 1] - spans[s]) * t);
+    const Eigen::Index rows = std::ssize(result.sites);
+    Eigen::MatrixXd weights(rows, count);
+    for (Eigen::Index i = 0; i < rows; ++i) {
+        const std::vector<double> w = curve.weights(result.sites[static_cast<std::size_t>(i)]);
+        weights.row(i) = Eigen::Map<const Eigen::RowVectorXd>(w.data(), count);
+    }
+    // What lies on the path is its own; the others are free.
+    const std::vector<bool> on = nodes_on_path(curve);
+    result.fit = Eigen::MatrixXd::Zero(count, rows);
+    std::vector<Eigen::Index> free;
+    for (Eigen::Index k = 0; k < count; ++k) {
+        if (!on[static_cast<std::size_t>(k)]) {
+            free.push_back(k);
+            continue;
+        }
+        Eigen::Index site = 0;
+        weights.col(k).maxCoeff(&site);
+        result.fit(k, site) = 1;
+    }
+    if (free.empty()) return result;
+    const Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(rows, rows) - weights * result.fit;
+    const Eigen::MatrixXd columns = weights(Eigen::all, free);
+    const Eigen::MatrixXd solved = columns.householderQr().solve(rest);
+    for (Eigen::Index i = 0; i < std::ssize(free); ++i)
+        result.fit.row(free[static_cast<std::size_t>(i)]) = solved.row(i);
     return result;
 }
 
-Curve resampled(const Curve& curve, int count) {
-    if (static_cast<int>(curve.nodes.size()) >= count) return curve;
-    Curve result = curve;
-    result.parameters = lobatto_nodes(count);
-    result.nodes.clear();
-    for (const double u : result.parameters) result.nodes.push_back(curve.at(u));
+std::vector<Points> control_normals(const Curve& curve, const Triangles& triangles) {
+    const CurveSites at = curve_sites(curve);
+    std::vector<Points> normals(curve.nodes.size(), Points::Zero(curve.nodes.front().rows(), 3));
+    for (std::size_t s = 0; s < at.sites.size(); ++s) {
+        const Points on = vertex_normals(curve.at(at.sites[s]), triangles);
+        for (std::size_t k = 0; k < normals.size(); ++k)
+            if (const double share = at.fit(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(s)); share != 0)
+                normals[k] += share * on;
+    }
+    return normals;
+}
+
+Curve curve(const std::vector<Interpolant>& pieces, const std::vector<double>& times, bool closed,
+            const CurveOptions& options) {
+    check(options);
+    const double size = diagonal(pieces.front().nodes.front());
+    std::vector<SplineTask> tasks;
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+        const bool before = p > 0 || closed, after = p + 1 < pieces.size() || closed;
+        tasks.push_back(
+            {pieces[p],
+             {before, after},
+             std::max(options.tolerance * size - pieces[p].error, 0.5 * options.tolerance * size) / between_sites});
+    }
+    const bool joins = pieces.size() > 1 || closed;
+    const std::vector<SplineBasis> bases =
+        fewest_splines(tasks, joins ? std::max(4, options.max_nodes) : options.max_nodes);
+    Curve result;
+    result.basis = joined(bases, times);
+    result.keys = times;
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+        const double error = between_sites * spline_error(bases[p], tasks[p]) + pieces[p].error;
+        result.deviation = std::max(result.deviation, size > 0 ? error / size : error);
+        std::vector<Points> own = control_meshes(bases[p], tasks[p]);
+        result.nodes.insert(result.nodes.end(), std::make_move_iterator(own.begin() + (p > 0)),
+                            std::make_move_iterator(own.end()));
+    }
     return result;
 }
 
 Curve curve(const Morph& morph, const CurveOptions& options, const Progress& progress) {
-    if (!(options.tolerance > 0)) throw Error(ErrorKind::argument, "the curve's tolerance must be above 0");
-    if (options.max_nodes < 2) throw Error(ErrorKind::argument, "a curve needs at least 2 nodes: its ends");
-    Curve result;
-    Sampler sampler{morph, progress, {}};
-    for (int count = 2;; count = std::min(2 * count - 1, options.max_nodes)) {
-        const std::vector<double> parameters = lobatto_nodes(count);
-        const std::vector<double> between = checks(count);
-        if (!sampler.sample(parameters) || !sampler.sample(between)) {
-            result.cancelled = true;
-            return result;
-        }
-        result.parameters = parameters;
-        result.nodes.clear();
-        for (const double u : parameters) result.nodes.push_back(sampler.known.at(u));
-        result.deviation = 0;
-        for (const double u : between)
-            result.deviation = std::max(result.deviation, largest_distance(result.at(u), sampler.known.at(u)));
-        const double size = diagonal(result.nodes.front());
-        if (size > 0) result.deviation /= size;
-        if (result.deviation <= options.tolerance || count >= options.max_nodes) return result;
-    }
+    check(options);
+    std::vector<Interpolant> pieces{
+        interpolant(morph, sampled_part * options.tolerance, std::max(17, 2 * options.max_nodes - 1), progress)};
+    if (!pieces.front().cancelled) return curve(pieces, {0, 1}, false, options);
+    Curve none;
+    none.cancelled = true;
+    return none;
 }
 
 } // namespace meshtween

@@ -1,38 +1,53 @@
 // Any path as a few meshes and their weights: what makes frames cheap and glTF files small.
 #pragma once
 
-#include "meshtween/morph/morph.h"
+#include "meshtween/morph/interpolant.h"
+#include "meshtween/morph/spline_basis.h"
 
 namespace meshtween {
 
 struct CurveOptions {
-    double tolerance = 1e-4; // largest deviation from the path, checked between nodes, parts of `from`'s diagonal
-    int max_nodes = 33;      // Chebyshev-Lobatto nodes at most, 2 or more
+    double tolerance = 1e-4; // largest deviation from the path, parts of `from`'s diagonal
+    int max_nodes = 33;      // control meshes at most, 2 or more; of several pieces, of each
 };
 
-// p(u) = sum_k weights(u)[k] nodes[k]: the polynomial through the path at Chebyshev-Lobatto nodes of [0, 1], or one
-// such polynomial after the other where the path has several pieces.
+// p(u) = sum_k weights(u)[k] nodes[k]: a B-spline of u in 0..1. Viewers and game engines that keep weights within 0 and
+// 1 play it as it is. The nodes are control meshes: all but the ends and the keys lie beside the path.
 struct Curve {
-    std::vector<double> parameters; // K ascending nodes, the first 0, the last 1
-    std::vector<Points> nodes;      // K meshes, the first and last the ends exactly
-    std::vector<int> knots;         // the nodes where pieces begin and end, 0 and K - 1 among them; empty for one piece
-    double deviation = 0;           // the largest found between nodes, parts of the diagonal
-    bool cancelled = false;         // the progress said so: the nodes are those of the last full step
-    std::vector<double> weights(double u) const; // K barycentric Lagrange weights, adding up to 1, 0 in other pieces
+    SplineBasis basis;
+    std::vector<Points> nodes; // K control meshes, the first and last the ends exactly
+    std::vector<double> keys;  // where pieces begin and end: the first 0, the last 1; a node lies at each
+    double deviation = 0;      // the largest from the path, parts of the diagonal
+    bool cancelled = false;    // the progress said so: then it has no nodes
+    std::vector<double> weights(double u) const; // K, each in 0..1, adding up to 1; degree + 1 above 0 at most
     Points at(double u) const;
 };
 
-// Where pieces begin and end, from 0 to 1.
-std::vector<double> key_times(const Curve& curve);
+// For each node: the u where it lies on the path (an end or a key), or nothing for a control mesh beside it.
+std::vector<bool> nodes_on_path(const Curve& curve);
 
-// The same polynomial through at least `count` nodes; a curve of one piece.
-Curve resampled(const Curve& curve, int count);
+// How control values follow from values on the path, for normals and whatever else is blended as the nodes are: those
+// of node k are sum_s fit(k, s) of the values at sites[s]. At ends and keys they are the path's own.
+struct CurveSites {
+    std::vector<double> sites;
+    Eigen::MatrixXd fit; // K x sites
+};
+CurveSites curve_sites(const Curve& curve);
 
-// K Chebyshev-Lobatto nodes of [0, 1], ascending: (1 - cos(k pi / (K - 1))) / 2.
-std::vector<double> lobatto_nodes(int count);
+// Vertex normals of all nodes in this sense: blended as positions are, they have the directions of the normals of the
+// path's shapes, to a degree or so. Unit length on the path only.
+std::vector<Points> control_normals(const Curve& curve, const Triangles& triangles);
 
-// Doubles K - 1 until the deviation is within the tolerance; says in `deviation` where max_nodes was not enough.
-// Throws Error(argument) for a tolerance that is not above 0 or max_nodes below 2.
+// With the fewest nodes for the tolerance; says in `deviation` where max_nodes was not enough. Throws Error(argument)
+// for a tolerance that is not above 0 or max_nodes below 2.
 Curve curve(const Morph& morph, const CurveOptions& options = {}, const Progress& progress = {});
+
+// The same for pieces between keys at these times, 0 to 1: each piece ends where the next one begins, with the same
+// velocity in the time of the whole, and a closed path goes on from its last shape to its first.
+Curve curve(const std::vector<Interpolant>& pieces, const std::vector<double>& times, bool closed = false,
+            const CurveOptions& options = {});
+
+// Throws Error(argument) as above.
+void check(const CurveOptions& options);
 
 } // namespace meshtween

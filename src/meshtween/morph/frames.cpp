@@ -9,9 +9,7 @@ namespace meshtween {
 
 FloatCurve to_float(const Curve& curve) {
     FloatCurve result;
-    result.weights.parameters = curve.parameters;
-    result.weights.knots = curve.knots;
-    result.weights.deviation = curve.deviation;
+    result.basis = curve.basis;
     for (const Points& node : curve.nodes) result.nodes.emplace_back(node.cast<float>());
     return result;
 }
@@ -27,8 +25,8 @@ void frame_into(const FloatCurve& curve, double u, std::span<float> result) {
     if (static_cast<Eigen::Index>(result.size()) != size)
         throw Error(ErrorKind::argument, fmt::format("a frame needs {} floats, not {}", size, result.size()));
     std::vector<float> weights;
-    std::vector<const float*> values; // of the nodes that take part: those of one piece
-    for (std::size_t k = 0; const double weight : curve.weights.weights(u)) {
+    std::vector<const float*> values; // of the nodes that take part
+    for (std::size_t k = 0; const double weight : curve.basis.weights(u)) {
         if (weight != 0) {
             weights.push_back(static_cast<float>(weight));
             values.push_back(curve.nodes[k].data());

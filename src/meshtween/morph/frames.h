@@ -10,13 +10,13 @@ namespace meshtween {
 using FloatPoints = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>; // n x 3, a row a point
 
 struct FloatCurve {
-    Curve weights;                  // its parameters and deviation; no nodes
-    std::vector<FloatPoints> nodes; // K meshes
+    SplineBasis basis;
+    std::vector<FloatPoints> nodes; // K control meshes
 };
 
 FloatCurve to_float(const Curve& curve);
 
-// The shape at u: a weighted sum of the nodes. Reads K meshes and writes one.
+// The shape at u: a weighted sum of the nodes. Reads degree + 1 meshes and writes one.
 FloatPoints frame(const FloatCurve& curve, double u);
 
 // The same into memory of the caller's, 3 n floats, for players that show many frames. Throws Error(argument) for

@@ -1,5 +1,5 @@
-// Catmull and Rom, A Class of Local Interpolating Splines, 1974; Berrut and Trefethen, Barycentric Lagrange
-// Interpolation, 2004 (derivatives at the nodes).
+// Catmull and Rom, A Class of Local Interpolating Splines, 1974. Pieces are polynomials through their own shapes until
+// all is decided; the curve is made of them last.
 #include "meshtween/morph/keys.h"
 
 #include "meshtween/core/error.h"
@@ -13,16 +13,11 @@
 namespace meshtween {
 namespace {
 
+constexpr double sampled_part = 0.1; // of the tolerance: what the polynomial through a piece's shapes may take of it
+
 // The derivative at the first or last node.
-Points end_velocity(const Curve& curve, bool last) {
-    const std::size_t n = curve.parameters.size(), j = last ? n - 1 : 0;
-    const auto weight = [&](std::size_t k) { return (k % 2 ? -1.0 : 1.0) * (k == 0 || k + 1 == n ? 0.5 : 1.0); };
-    Points velocity = Points::Zero(curve.nodes[j].rows(), 3);
-    for (std::size_t k = 0; k < n; ++k)
-        if (k != j)
-            velocity +=
-                weight(k) / weight(j) / (curve.parameters[j] - curve.parameters[k]) * (curve.nodes[k] - curve.nodes[j]);
-    return velocity;
+Points end_velocity(const Interpolant& path, bool last) {
+    return weighted_sum(path.nodes, end_derivative_weights(path.parameters, last));
 }
 
 std::vector<double> checked_times(std::size_t segments, std::vector<double> times) {
@@ -39,10 +34,10 @@ std::vector<double> checked_times(std::size_t segments, std::vector<double> time
 }
 
 // Adds cubics without value at both ends, whose slopes there make up what the velocities lack.
-void correct_velocities(Curve& curve, const Points& lacks_first, const Points& lacks_last) {
-    for (std::size_t k = 1; k + 1 < curve.nodes.size(); ++k) {
-        const double s = curve.parameters[k], r = 1 - s;
-        curve.nodes[k] += s * r * r * lacks_first - s * s * r * lacks_last;
+void correct_velocities(Interpolant& path, const Points& lacks_first, const Points& lacks_last) {
+    for (std::size_t k = 1; k + 1 < path.nodes.size(); ++k) {
+        const double s = path.parameters[k], r = 1 - s;
+        path.nodes[k] += s * r * r * lacks_first - s * s * r * lacks_last;
     }
 }
 
@@ -56,12 +51,12 @@ struct Pace {
 };
 
 // The same shapes at another pace; more nodes where that takes them.
-Curve paced(const Curve& piece, const Pace& pace, const CurveOptions& options) {
+Interpolant paced(const Interpolant& piece, const Pace& pace, const CurveOptions& options) {
     if (pace.first == 1 && pace.last == 1) return piece;
     Morph moved;
     moved.at = [&](double t) { return piece.at(std::clamp(pace(t), 0.0, 1.0)); };
-    Curve result = curve(moved, options);
-    result.deviation = std::max(result.deviation, piece.deviation);
+    Interpolant result = interpolant(moved, sampled_part * options.tolerance);
+    result.error += piece.error;
     return result;
 }
 
@@ -75,7 +70,7 @@ double kept_speed(const Points& before, const Points& after) {
 
 // Makes one velocity of the two at every key between pieces, and where a closed path begins and ends: pieces slow down
 // or hurry to one speed, and what then still differs in direction is made up for by cubics.
-void join_velocities(std::vector<Curve>& pieces, const std::vector<double>& times, const KeyOptions& options) {
+void join_velocities(std::vector<Interpolant>& pieces, const std::vector<double>& times, const KeyOptions& options) {
     const std::size_t count = pieces.size();
     const auto duration = [&](std::size_t i) { return times[i + 1] - times[i]; };
     std::vector<Pace> pace(count);
@@ -103,23 +98,6 @@ void join_velocities(std::vector<Curve>& pieces, const std::vector<double>& time
     }
 }
 
-Curve chained(std::vector<Curve> pieces, const std::vector<double>& times) {
-    if (pieces.size() == 1) return std::move(pieces[0]);
-    Curve chain;
-    chain.knots = {0};
-    for (std::size_t k = 0; k < pieces.size(); ++k) {
-        Curve& piece = pieces[k];
-        for (std::size_t i = k == 0 ? 0 : 1; i < piece.nodes.size(); ++i) {
-            const bool key = i + 1 == piece.nodes.size(); // exactly what the caller gave
-            chain.parameters.push_back(key ? times[k + 1] : times[k] + piece.parameters[i] * (times[k + 1] - times[k]));
-            chain.nodes.push_back(std::move(piece.nodes[i]));
-        }
-        chain.knots.push_back(static_cast<int>(chain.nodes.size()) - 1);
-        chain.deviation = std::max(chain.deviation, piece.deviation);
-    }
-    return chain;
-}
-
 void add(RepairReport& sum, const RepairReport& one) {
     sum.cuts_before += one.cuts_before;
     sum.cuts_after += one.cuts_after;
@@ -142,14 +120,16 @@ KeyPath key_path(const Mesh& mesh, const std::vector<Points>& shapes, const KeyO
     };
     const double solved = options.repair ? 0.5 : 1; // of the progress
     KeyPath path;
-    std::vector<Curve> pieces;
+    check(options.curve);
+    std::vector<Interpolant> pieces;
     for (std::size_t k = 0; k < count; ++k) {
         Mesh from = mesh;
         from.positions = shapes[k];
         const Progress part = piece_of(progress, k, 0, solved);
         Morph between = morph(from, shapes[(k + 1) % shapes.size()], options.morph, part_of(part, 0, 0.3));
         if (options.timing) between = retimed(between, *options.timing);
-        pieces.push_back(curve(between, options.curve, part_of(part, 0.3, 1)));
+        pieces.push_back(interpolant(between, sampled_part * options.curve.tolerance,
+                                     std::max(17, 2 * options.curve.max_nodes - 1), part_of(part, 0.3, 1)));
         if (pieces.back().cancelled) {
             path.curve.cancelled = true;
             return path;
@@ -163,10 +143,10 @@ KeyPath key_path(const Mesh& mesh, const std::vector<Points>& shapes, const KeyO
             path.curve.cancelled = true;
             return path;
         }
-        pieces[k] = std::move(better.curve);
+        pieces[k] = std::move(better.path);
         add(path.repair, better.report);
     }
-    path.curve = chained(std::move(pieces), times);
+    path.curve = curve(pieces, times, options.closed, options.curve);
     return path;
 }
 

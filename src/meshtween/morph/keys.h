@@ -1,6 +1,7 @@
 // Several key shapes in a row, passed with continuous velocity; and blends of several shapes.
 #pragma once
 
+#include "meshtween/morph/curve.h"
 #include "meshtween/morph/repair.h"
 #include "meshtween/morph/timing.h"
 
@@ -10,7 +11,7 @@ namespace meshtween {
 
 struct KeyOptions {
     MorphOptions morph;
-    CurveOptions curve;                  // of each piece; with several pieces max_nodes counts as 5 at least
+    CurveOptions curve;                  // of each piece; with several pieces max_nodes counts as 4 at least
     std::vector<double> times;           // one a shape, ascending from 0 to 1; empty for equal steps
     bool closed = false;                 // the last shape goes on to the first: one more piece, and one more time
     std::optional<RegionTiming> timing;  // regions with times of their own, within each piece

@@ -35,17 +35,17 @@ CutPairs without(const CutPairs& pairs, const CutPairs& others) {
 
 // How the triangles have turned in the mean. A shape that turns as a whole is bent in a frame that turns with it: what
 // comes out does not depend on how an end is turned.
-Eigen::Matrix3d turn_of(const Film& film, const Curve& curve, const Points& shape) {
+Eigen::Matrix3d turn_of(const Film& film, const Interpolant& path, const Points& shape) {
     const std::vector<int> all(static_cast<std::size_t>(film.triangles.rows()), 0);
-    return mean_rotations(face_field(curve.nodes.front(), shape, film.triangles), all, 1)[0].toRotationMatrix();
+    return mean_rotations(face_field(path.nodes.front(), shape, film.triangles), all, 1)[0].toRotationMatrix();
 }
 
-bool look(Film& film, const Curve& curve, const Progress& progress) {
+bool look(Film& film, const Interpolant& path, const Progress& progress) {
     for (std::size_t f = 0; f < film.times.size(); ++f) {
         if (!keep_going(progress, static_cast<double>(f) / static_cast<double>(film.times.size()), "looking for cuts"))
             return false;
-        film.shapes[f] = curve.at(film.times[f]);
-        film.turns[f] = turn_of(film, curve, film.shapes[f]);
+        film.shapes[f] = path.at(film.times[f]);
+        film.turns[f] = turn_of(film, path, film.shapes[f]);
         film.cuts[f] = without(self_intersections(film.shapes[f], film.triangles), film.ends);
     }
     return true;
@@ -341,18 +341,18 @@ Found search(Place& place, const Contact& contact, double reach, int most) {
     return best;
 }
 
-Curve bent(const Film& film, const Curve& curve, const Movable& part, const Bend& bend) {
-    Curve result = resampled(curve, bend.bump.degree() + 1);
+Interpolant bent(const Film& film, const Interpolant& path, const Movable& part, const Bend& bend) {
+    Interpolant result = resampled(path, bend.bump.degree() + 1);
     for (std::size_t k = 1; k + 1 < result.nodes.size(); ++k) {
         const Point way =
-            bend.bump(result.parameters[k]) * bend.direction * turn_of(film, curve, result.nodes[k]).transpose();
+            bend.bump(result.parameters[k]) * bend.direction * turn_of(film, path, result.nodes[k]).transpose();
         for (std::size_t i = 0; i < part.vertices.size(); ++i)
             result.nodes[k].row(part.vertices[i]) += bend.way[i] * way;
     }
     return result;
 }
 
-double largest_move(const Curve& a, const Curve& b) {
+double largest_move(const Interpolant& a, const Interpolant& b) {
     double most = 0;
     for (std::size_t k = 0; k < a.nodes.size(); ++k)
         most = std::max(most, (a.nodes[k] - b.at(a.parameters[k])).rowwise().norm().maxCoeff());
@@ -360,7 +360,7 @@ double largest_move(const Curve& a, const Curve& b) {
 }
 
 // Bends every contact once, the deepest first.
-void bend_contacts(Repaired& result, Film& film, const Curve& original, const Patches& cells, const Topology& top,
+void bend_contacts(Repaired& result, Film& film, const Interpolant& original, const Patches& cells, const Topology& top,
                    const RepairOptions& options, double reach) {
     std::vector<Contact> found = contacts(film.cuts, film.ends, cells);
     const auto deepest = [](const Contact& c) { return c.cuts[static_cast<std::size_t>(c.worst_frame)]; };
@@ -374,30 +374,29 @@ void bend_contacts(Repaired& result, Film& film, const Curve& original, const Pa
         const Found best = search(place, contact, reach, left);
         result.report.trials += place.trials;
         if (best.size <= 0) continue;
-        Curve better = bent(film, result.curve, part, best.bend);
+        Interpolant better = bent(film, result.path, part, best.bend);
         const double moved = largest_move(better, original);
         if (moved > reach) continue; // together with what was bent before
-        result.curve = std::move(better);
+        result.path = std::move(better);
         result.report.moved = std::max(result.report.moved, moved);
-        for (std::size_t f = 0; f < film.times.size(); ++f) film.shapes[f] = result.curve.at(film.times[f]);
+        for (std::size_t f = 0; f < film.times.size(); ++f) film.shapes[f] = result.path.at(film.times[f]);
         ++result.report.contacts;
     }
 }
 
 } // namespace
 
-Repaired repaired(const Curve& curve, const Triangles& triangles, const RepairOptions& options,
+Repaired repaired(const Interpolant& path, const Triangles& triangles, const RepairOptions& options,
                   const Progress& progress) {
-    if (!curve.knots.empty()) throw Error(ErrorKind::argument, "a path is repaired piece by piece");
     if (options.frames < 1 || options.rounds < 0 || !(options.reach > 0))
         throw Error(ErrorKind::argument, "a repair needs at least one frame, a reach above 0 and no negative rounds");
-    Repaired result{curve, {}, false};
+    Repaired result{path, {}, false};
     Film film{triangles, {}, {}, {}, {}, {}};
     for (int f = 1; f <= options.frames; ++f) film.times.push_back(static_cast<double>(f) / (options.frames + 1));
     film.shapes.resize(film.times.size());
     film.turns.resize(film.times.size());
     film.cuts.resize(film.times.size());
-    for (const Points* end : {&curve.nodes.front(), &curve.nodes.back()}) {
+    for (const Points* end : {&path.nodes.front(), &path.nodes.back()}) {
         const CutPairs own = self_intersections(*end, triangles);
         film.ends.insert(film.ends.end(), own.begin(), own.end());
     }
@@ -406,19 +405,19 @@ Repaired repaired(const Curve& curve, const Triangles& triangles, const RepairOp
         result.cancelled = true;
         return result;
     };
-    if (!look(film, curve, part_of(progress, 0, 0.4))) return stopped();
+    if (!look(film, path, part_of(progress, 0, 0.4))) return stopped();
     result.report.cuts_before = result.report.cuts_after = total(film.cuts);
     if (result.report.cuts_before == 0) return result;
-    const Topology top = topology(curve.nodes.front().rows(), triangles);
+    const Topology top = topology(path.nodes.front().rows(), triangles);
     const int cell_count = static_cast<int>(std::clamp<Eigen::Index>(triangles.rows() / 8, 1, 2000));
     const Patches cells =
-        patches(face_field(curve.nodes.front(), curve.nodes.back(), triangles), triangles, top, cell_count);
-    const double size = diagonal(curve.nodes.front());
+        patches(face_field(path.nodes.front(), path.nodes.back(), triangles), triangles, top, cell_count);
+    const double size = diagonal(path.nodes.front());
     for (int round = 0; round < options.rounds && result.report.cuts_after > 0; ++round) {
         const int bent = result.report.contacts;
-        bend_contacts(result, film, curve, cells, top, options, options.reach * size);
+        bend_contacts(result, film, path, cells, top, options, options.reach * size);
         if (result.report.contacts == bent) break;
-        if (!look(film, result.curve, part_of(progress, 0.4 + 0.6 * round / options.rounds, 1))) return stopped();
+        if (!look(film, result.path, part_of(progress, 0.4 + 0.6 * round / options.rounds, 1))) return stopped();
         result.report.cuts_after = total(film.cuts);
     }
     result.report.left = static_cast<int>(contacts(film.cuts, film.ends, cells).size());

@@ -1,7 +1,7 @@
 // Bending a path where it cuts itself though its ends do not.
 #pragma once
 
-#include "meshtween/morph/curve.h"
+#include "meshtween/morph/interpolant.h"
 
 namespace meshtween {
 
@@ -23,16 +23,15 @@ struct RepairReport {
 };
 
 struct Repaired {
-    Curve curve;
+    Interpolant path;
     RepairReport report;
-    bool cancelled = false; // the progress said so: the curve is the best so far
+    bool cancelled = false; // the progress said so: the path is the best so far
 };
 
 // Both sides of a contact are moved apart by a field that fades over the surface around it, and over time by a
 // polynomial with double noughts at both ends: ends and the velocities there stay as they are. Direction and size are
-// the smallest of those tried with which fewest triangles cut. One piece; throws Error(argument) for more, or bad
-// options.
-Repaired repaired(const Curve& curve, const Triangles& triangles, const RepairOptions& options = {},
+// the smallest of those tried with which fewest triangles cut. Throws Error(argument) for bad options.
+Repaired repaired(const Interpolant& path, const Triangles& triangles, const RepairOptions& options = {},
                   const Progress& progress = {});
 
 } // namespace meshtween

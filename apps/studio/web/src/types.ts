@@ -101,7 +101,9 @@ export interface OptionRow {
 export interface PathInfo {
   key: string
   asked: string // the request that it answers
-  parameters: number[]
+  meshes: number // control meshes, weighted by a B-spline of this degree on these knots
+  degree: number
+  knots: number[]
   deviation: number
   bent: number // places that were moved aside because they cut each other on the way
   cuts_left: number // places that still do

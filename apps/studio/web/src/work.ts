@@ -99,10 +99,11 @@ export async function startMorph(compare = false) {
 
 async function fetchNodes(path: PathInfo) {
   const fetchAll = (what: string) =>
-    Promise.all(path.parameters.map((_, node) => bytes('api/path', { key: path.key, node, what })))
+    Promise.all(Array.from({ length: path.meshes }, (_, node) => bytes('api/path', { key: path.key, node, what })))
   const [positions, normals] = await Promise.all([fetchAll('positions'), fetchAll('normals')])
   return {
-    parameters: path.parameters,
+    degree: path.degree,
+    knots: path.knots,
     positions: positions.map((buffer) => new Float32Array(buffer)),
     normals: normals.map((buffer) => new Int16Array(buffer)),
   }

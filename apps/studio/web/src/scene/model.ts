@@ -4,7 +4,7 @@ import {
   MeshMatcapMaterial, Uint8BufferAttribute, type Texture,
 } from 'three'
 import type { MeshBVH } from 'three-mesh-bvh'
-import { lagrange } from '../../../../player/src/lagrange'
+import { spline } from '../../../../player/src/spline'
 import { treeOf } from './tree'
 
 export type Shading = 'smooth' | 'flat' | 'uv' | 'colour'
@@ -16,7 +16,8 @@ export interface Buffers {
 }
 
 export interface Nodes {
-  parameters: number[]
+  degree: number
+  knots: number[]
   positions: Float32Array[]
   normals: Int16Array[]
 }
@@ -149,9 +150,9 @@ export class Model {
     }
   }
 
-  // The path's meshes become morph targets in the graphics card: playing sends weights alone.
+  // The path's control meshes become morph targets in the graphics card: playing sends weights alone.
   setNodes(nodes: Nodes) {
-    this.weights = lagrange(nodes.parameters)
+    this.weights = spline(nodes.degree, nodes.knots)
     this.geometry.morphAttributes.position = nodes.positions.map((array) => new BufferAttribute(array, 3))
     this.geometry.morphAttributes.normal = nodes.normals.map(normalAttribute)
     this.geometry.morphTargetsRelative = false

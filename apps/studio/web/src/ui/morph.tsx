@@ -45,7 +45,7 @@ export function MorphPanel() {
         )}
         {paths.main && (
           <small>
-            Played from {paths.main.parameters.length} meshes, {figure(100 * paths.main.deviation)} % off the path at most; exports take as many as 0.01 % needs.
+            Played from {paths.main.meshes} meshes, {figure(100 * paths.main.deviation)} % off the path at most; exports take as many as 0.01 % needs.
             {paths.main.bent > 0 && ` Bent in ${places(paths.main.bent)} where it would cut itself.`}
           </small>
         )}
