@@ -162,13 +162,14 @@ Output output(const std::string& name) {
     if (!folder.empty() && !std::filesystem::is_directory(folder))
         throw Error(ErrorKind::file, fmt::format("{}: there is no folder {}; create it first", name, folder.string()));
     const bool counted = path.filename().string().find('#') != std::string::npos;
+    if (is_mesh_extension(extension)) check_writable(path);
     if (counted && (is_mesh_extension(extension) || extension == ".png")) return {OutputKind::sequence, path};
     if (extension == ".glb") return {OutputKind::glb, path};
     if (extension == ".html") return {OutputKind::html, path};
     if (extension == ".png") return {OutputKind::sheet, path};
     if (extension == ".apng") return {OutputKind::film, path};
     if (extension == ".svg") return {OutputKind::plot, path};
-    if (is_mesh_extension(extension) && extension != ".gltf") return {OutputKind::mesh, path};
+    if (is_mesh_extension(extension)) return {OutputKind::mesh, path};
     throw Error(ErrorKind::argument, fmt::format("-o {}: cannot tell what to write from \"{}\"; use .glb, .html, .png, "
                                                  ".apng, .svg, .obj, .ply, .stl, .off, .vtk, .vtp, .usda, "
                                                  "or frame_####.obj for a numbered sequence",

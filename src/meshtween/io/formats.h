@@ -18,6 +18,8 @@ PolygonMesh read_off(std::string_view bytes, const std::filesystem::path& path);
 PolygonMesh read_gltf(std::string_view bytes, const std::filesystem::path& path);
 PolygonMesh read_vtk(std::string_view bytes, const std::filesystem::path& path);
 PolygonMesh read_vtp(std::string_view bytes, const std::filesystem::path& path);
+// FBX, Collada and 3MF; where the program was built without assimp, an error that says so.
+PolygonMesh read_assimp(std::string_view bytes, const std::filesystem::path& path);
 
 // Each writes `path` through write_whole and returns sentences for people: what became of pictures beside it, what was
 // decided. What the format cannot hold is told by its FormatKeeps. Where is_rewritable, the mesh's own file comes back
@@ -29,6 +31,8 @@ std::vector<std::string> write_off(const Mesh& mesh, const std::filesystem::path
 std::vector<std::string> write_vtk(const Mesh& mesh, const std::filesystem::path& path, const WriteOptions& options);
 std::vector<std::string> write_vtp(const Mesh& mesh, const std::filesystem::path& path, const WriteOptions& options);
 std::vector<std::string> write_usda(const Mesh& mesh, const std::filesystem::path& path, const WriteOptions& options);
+std::vector<std::string> write_dae(const Mesh& mesh, const std::filesystem::path& path, const WriteOptions& options);
+std::vector<std::string> write_3mf(const Mesh& mesh, const std::filesystem::path& path, const WriteOptions& options);
 
 // What a format can hold besides positions and triangles, as our writer writes it.
 struct FormatKeeps {
@@ -38,6 +42,9 @@ struct FormatKeeps {
 
 // What the mesh and its file have and the format has not: "12 groups", "vertex colours".
 std::vector<std::string> not_kept(const Mesh& mesh, const FormatKeeps& keeps);
+
+// Throws Error(argument) where the program was built without assimp.
+void require_assimp(const std::filesystem::path& path);
 
 // Colours that some writer gave in 0..255 come down to 0..1.
 void normalise_colors(std::vector<float>& colors);

@@ -41,14 +41,16 @@ constexpr FormatKeeps usd_keeps{.polygons = true,
                                 .groups = true,
                                 .materials = true,
                                 .images = true};
+constexpr FormatKeeps threemf_keeps{};
 constexpr FormatKeeps gltf_keeps{.texcoords = true, .colors = true};
 
 constexpr std::array formats{
-    Format{".obj", read_obj, write_obj, obj_keeps},   Format{".ply", read_ply, write_ply, ply_keeps},
-    Format{".stl", read_stl, write_stl, {}},          Format{".off", read_off, write_off, off_keeps},
-    Format{".glb", read_gltf, write_glb, gltf_keeps}, Format{".gltf", read_gltf, nullptr, gltf_keeps},
-    Format{".vtk", read_vtk, write_vtk, vtk_keeps},   Format{".vtp", read_vtp, write_vtp, vtk_keeps},
-    Format{".usda", nullptr, write_usda, usd_keeps},
+    Format{".obj", read_obj, write_obj, obj_keeps},    Format{".ply", read_ply, write_ply, ply_keeps},
+    Format{".stl", read_stl, write_stl, {}},           Format{".off", read_off, write_off, off_keeps},
+    Format{".glb", read_gltf, write_glb, gltf_keeps},  Format{".gltf", read_gltf, nullptr, gltf_keeps},
+    Format{".vtk", read_vtk, write_vtk, vtk_keeps},    Format{".vtp", read_vtp, write_vtp, vtk_keeps},
+    Format{".usda", nullptr, write_usda, usd_keeps},   Format{".fbx", read_assimp, nullptr, vtk_keeps},
+    Format{".dae", read_assimp, write_dae, vtk_keeps}, Format{".3mf", read_assimp, write_3mf, threemf_keeps},
 };
 
 std::string lower_extension(const fs::path& path) {
@@ -115,12 +117,17 @@ std::vector<Mesh> read_meshes(const std::vector<fs::path>& paths) {
     return meshes;
 }
 
-std::vector<std::string> write_mesh(const Mesh& mesh, const fs::path& path, const WriteOptions& options) {
+void check_writable(const fs::path& path) {
     const Format& format = format_of(path);
     if (format.write == nullptr)
         throw Error(ErrorKind::argument,
-                    fmt::format("{}: {} is read but not written; write .glb", path.string(), format.extension));
-    std::vector<std::string> notes = format.write(mesh, path, options);
+                    fmt::format("{}: {} is read but not written; write .glb or .obj", path.string(), format.extension));
+    if (format.read == read_assimp) require_assimp(path);
+}
+
+std::vector<std::string> write_mesh(const Mesh& mesh, const fs::path& path, const WriteOptions& options) {
+    check_writable(path);
+    std::vector<std::string> notes = format_of(path).write(mesh, path, options);
     for (std::string& note : left_behind(mesh, path)) notes.push_back(std::move(note));
     return notes;
 }

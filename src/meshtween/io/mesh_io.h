@@ -1,5 +1,5 @@
-// Meshes from and to files; the format is the name's extension: .obj .ply .stl .off .glb .gltf .vtk .vtp, and
-// .usda, which is only written
+// Meshes from and to files; the format is the name's extension: .obj .ply .stl .off .glb .vtk .vtp, and
+// .dae .3mf where assimp was found; .gltf and .fbx are only read, .usda is only written.
 #pragma once
 
 #include "meshtween/core/mesh.h"
@@ -34,13 +34,15 @@ struct WriteOptions {
 // same. To another format goes what that can hold. Returns what was left behind and what else people should know, a
 // sentence each that begins with the file's name.
 // Writes beside `path`, then renames: a failure leaves nothing half-written. Doubles in text keep all their digits; STL
-// and GLB hold floats. UVs go to .obj .ply .glb, colours to .obj .ply .off .glb. Throws Error(argument) for an unknown
-// extension (and .gltf, which is only read), Error(file) where writing fails.
+// and GLB hold floats. Throws Error(argument) as check_writable, Error(file) where writing fails.
 std::vector<std::string> write_mesh(const Mesh& mesh, const std::filesystem::path& path,
                                     const WriteOptions& options = {});
 
 // What write_mesh would leave behind there, as a sentence; none where nothing is. Also for .glb and .html of a morph.
 std::vector<std::string> left_behind(const Mesh& mesh, const std::filesystem::path& path);
+
+// Throws Error(argument) where write_mesh would not know how: so that nobody waits for a fit to hear it.
+void check_writable(const std::filesystem::path& path);
 
 // The extensions that read_mesh and write_mesh know, with the dot, in lower case.
 const std::vector<std::string>& mesh_extensions();

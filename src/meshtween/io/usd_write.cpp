@@ -50,25 +50,6 @@ void put_extent(TextOut& out, const UsdScene& scene, const char* indent) {
     put_rows(out, corners);
 }
 
-// The texture coordinate of each polygon's corner.
-std::vector<int> texcoord_corners(const UsdScene& scene) {
-    const Mesh& mesh = scene.mesh;
-    std::vector<int> result(scene.polygons.corners.size(), -1);
-    const bool described = is_described(mesh);
-    for (Eigen::Index i = 0; i < mesh.texcoord_triangles.size(); ++i) {
-        const Eigen::Index corner = described ? mesh.file->cut.data()[i] : i;
-        result[static_cast<std::size_t>(corner)] = mesh.texcoord_triangles.data()[i];
-    }
-    std::size_t begin = 0; // a corner that repeats the one before it is in no triangle
-    for (const int end : scene.polygons.ends) {
-        int known = 0;
-        for (std::size_t c = begin; c < static_cast<std::size_t>(end); ++c) known = std::max(known, result[c]);
-        for (; begin < static_cast<std::size_t>(end); ++begin)
-            if (result[begin] < 0) result[begin] = known;
-    }
-    return result;
-}
-
 void put_colors(TextOut& out, const Mesh& mesh) {
     if (mesh.colors.rows() == 0) {
         out.put("        color3f[] primvars:displayColor = [(0.7, 0.625, 0.555)] (\n"
@@ -106,7 +87,7 @@ void put_geometry(TextOut& out, const UsdScene& scene) {
     out.put("        texCoord2f[] primvars:st = ");
     put_rows(out, mesh.texcoords, "interpolation = \"faceVarying\"");
     out.put("        int[] primvars:st:indices = ");
-    put_list(out, texcoord_corners(scene));
+    put_list(out, texcoords_of_corners(mesh, scene.polygons));
 }
 
 // Faces by name: what a group or a material covers.

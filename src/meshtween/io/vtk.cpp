@@ -286,6 +286,23 @@ PolygonList polygons_to_write(const Mesh& mesh) {
     return list;
 }
 
+std::vector<int> texcoords_of_corners(const Mesh& mesh, const PolygonList& polygons) {
+    std::vector<int> result(polygons.corners.size(), -1);
+    const bool described = is_described(mesh);
+    for (Eigen::Index i = 0; i < mesh.texcoord_triangles.size(); ++i) {
+        const Eigen::Index corner = described ? mesh.file->cut.data()[i] : i;
+        result[static_cast<std::size_t>(corner)] = mesh.texcoord_triangles.data()[i];
+    }
+    std::size_t begin = 0; // a corner that repeats the one before it is in no triangle
+    for (const int end : polygons.ends) {
+        int known = 0;
+        for (std::size_t c = begin; c < static_cast<std::size_t>(end); ++c) known = std::max(known, result[c]);
+        for (; begin < static_cast<std::size_t>(end); ++begin)
+            if (result[begin] < 0) result[begin] = known;
+    }
+    return result;
+}
+
 std::vector<std::string> seams_left_behind(const Mesh& mesh, const std::filesystem::path& path) {
     if (mesh.texcoords.rows() == 0 || texcoords_of_vertices(mesh).rows() > 0) return {};
     return {fmt::format("{}: left behind the texture coordinates, because VTK has one a vertex and seams need two",

@@ -66,6 +66,9 @@ struct PolygonList {
 };
 PolygonList polygons_to_write(const Mesh& mesh);
 
+// The texture coordinate of each corner of polygons_to_write.
+std::vector<int> texcoords_of_corners(const Mesh& mesh, const PolygonList& polygons);
+
 // A sentence where texture coordinates have seams, which neither format can hold without more vertices.
 std::vector<std::string> seams_left_behind(const Mesh& mesh, const std::filesystem::path& path);
 
