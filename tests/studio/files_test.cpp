@@ -12,10 +12,19 @@ namespace {
 TEST(Files, plain_names_have_no_folders_and_no_surprises) {
     EXPECT_EQ(plain_name("igea.ply"), "igea.ply");
     EXPECT_EQ(plain_name("../../etc/passwd"), "passwd");
-    EXPECT_EQ(plain_name("C:\\models\\a b.obj"), "a_b.obj");
+    EXPECT_EQ(plain_name("C:\\models\\a b.obj"), "a b.obj");
+    EXPECT_EQ(plain_name("Тест é 頭.obj"), "Тест é 頭.obj") << "a name keeps its letters";
+    EXPECT_EQ(plain_name("a:b*c?\n.obj"), "a_b_c__.obj");
+    EXPECT_EQ(plain_name("\xff\xc3.obj"), "__.obj") << "no UTF-8";
+    EXPECT_EQ(plain_name("\xed\xa0\x80"), "___") << "no letter";
+    EXPECT_EQ(plain_name("name. "), "name");
     EXPECT_EQ(plain_name("...hidden"), "hidden");
     EXPECT_EQ(plain_name("frame_####.png"), "frame_####.png");
     EXPECT_EQ(plain_name(std::string(500, 'x')).size(), 120U);
+    std::string cyrillic;
+    for (int i = 0; i < 100; ++i) cyrillic += "щ";
+    EXPECT_EQ(plain_name(cyrillic + ".obj"), cyrillic.substr(0, 116) + ".obj")
+        << "cut between letters, the ending stays";
     for (const char* name : {"", "..", "a/", "/"})
         EXPECT_NE(message_of(ErrorKind::argument, [&] { plain_name(name); }).find("name"), std::string::npos) << name;
 }

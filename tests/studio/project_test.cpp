@@ -56,6 +56,16 @@ TEST(Project, tells_what_is_wrong_with_a_file) {
               std::string::npos);
 }
 
+TEST(Project, numbers_the_doubled_names_of_older_files) {
+    const Json json =
+        Json::parse(R"({"meshtween_project": 1, "markers": [{"id": "a", "name": "eye"}, {"id": "b", "name": "eye"},
+        {"id": "c", "name": "eye 2"}, {"id": "d", "name": ""}, {"id": "e", "name": ""}]})");
+    const Project project = project_from_json(json, "/p");
+    std::vector<std::string> names;
+    for (const PlacedMarker& marker : project.markers) names.push_back(marker.name);
+    EXPECT_EQ(names, (std::vector<std::string>{"eye", "eye 3", "eye 2", "", ""}));
+}
+
 TEST(Project, hash_tells_a_changed_file) {
     const Scratch scratch;
     const auto a = scratch.file("a", "one"), b = scratch.file("b", "one"), c = scratch.file("c", "onE");

@@ -1,7 +1,7 @@
 // Each of these requests must fail; the last lines show that the same request, made rightly, does not.
 import assert from 'node:assert/strict'
 import { request } from 'node:http'
-import { mkdirSync, readFileSync, symlinkSync, writeFileSync } from 'node:fs'
+import { mkdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs'
 import { connect } from 'node:net'
 import { networkInterfaces } from 'node:os'
 import { join } from 'node:path'
@@ -65,28 +65,39 @@ test('refuses whoever is not the page', async (t) => {
 
   await t.test('what lies outside the project', async () => {
     writeFileSync(join(folder, 'secret.ply'), readFileSync(meshes[0]))
-    const project = (path) => JSON.stringify({ meshtween_project: 1, source: { path, hash: '' }, markers: [] })
+    const bundle = (files) => JSON.stringify(files.map(([name, text]) => ({ name, size: Buffer.byteLength(text) }))) + '\n' + files.map(([, text]) => text).join('')
+    const project = (path) => bundle([['project.json', JSON.stringify({ meshtween_project: 1, source: { path, hash: '' }, markers: [] })]])
     for (const path of [join(folder, 'secret.ply'), '../../../../secret.ply', '/etc/passwd']) {
-      const answer = await post(`${root}api/project`, project(path), { 'X-Tab': '' })
+      const answer = await post(`${root}api/projects/add`, project(path), { 'X-Tab': '' })
       assert.equal(answer.status, 400, path)
       assert.match(answer.text, /open that file first/)
     }
+    for (const name of ['../escaped.ply', '/tmp/escaped.ply', 'a/b/c/d.ply'])
+      assert.equal((await post(`${root}api/projects/add`, bundle([['project.json', '{"meshtween_project":1}'], [name, 'x']]))).status, 400, name)
+    for (const id of ['..', '', '../..', '%2e%2e', 'x/../..']) {
+      assert.equal((await post(`${root}api/projects/open?id=${id}`, '')).status, 400, id)
+      assert.equal((await get(`${root}api/projects/picture?id=${id}`)).status, 400, id)
+      assert.equal((await get(`${root}api/kept?name=${id}`)).status, 400, id)
+    }
+    const reach = (path) => JSON.stringify({ models: { source: { path, hash: '' }, target: null } })
+    for (const path of ['/etc/passwd', '../../../../secret.ply', join(folder, 'secret.ply')])
+      assert.equal((await post(`${root}api/document`, reach(path))).status, 400, path)
     const inside = JSON.parse((await get(state)).text).project.folder
     symlinkSync(join(folder, 'secret.ply'), join(inside, 'link.ply'))
-    assert.equal((await post(`${root}api/project`, project('link.ply'))).status, 400)
+    assert.equal((await post(`${root}api/document`, reach('link.ply'))).status, 400)
     mkdirSync(join(inside, 'exports'), { recursive: true })
     symlinkSync('/etc/passwd', join(inside, 'exports', 'link.glb'))
     for (const name of ['../project.json', '/etc/passwd', '..%2f..%2fsecret.ply', 'link.glb', ''])
       assert.equal((await get(`${root}api/download?name=${name}`)).status, 400, name)
     symlinkSync(join(folder, 'secret.ply'), join(inside, 'models.link'))
-    mkdirSync(join(inside, 'models'), { recursive: true })
-    symlinkSync(join(folder), join(inside, 'models', 'source'))
+    symlinkSync(join(folder), join(inside, 'models'))
     assert.equal((await post(`${root}api/upload?side=source&name=secret.ply`, readFileSync(meshes[1]))).status, 400)
+    rmSync(join(inside, 'models'))
     for (const path of [`${root}../../etc/passwd`, `${root}%2e%2e/%2e%2e/etc/passwd`, `${root}api/mesh/../../project.json`])
       assert.equal((await get(path)).status, 404, path)
     const upload = await post(`${root}api/upload?side=target&name=..%2F..%2Fescaped.ply`, readFileSync(meshes[0]))
     assert.equal(upload.status, 200)
-    assert.equal(JSON.parse((await get(state)).text).meshes.target.path, join(inside, 'models', 'target', 'escaped.ply'))
+    assert.match(JSON.parse(upload.text).model.path, /^models\/[0-9a-f]{16}\/escaped\.ply$/)
   })
 
   await t.test('hostile files and requests, with an error and no crash', async () => {
@@ -107,7 +118,8 @@ test('refuses whoever is not the page', async (t) => {
       ['api/document', '{'], ['api/document', '[]'], ['api/document', '{"markers":[{"id":"a","source":[1,2]}]}'],
       ['api/document', '{"markers":[{"id":"a"},{"id":"a"}]}'], ['api/document', `{"markers":${'['.repeat(100000)}`],
       ['api/document', '{"options":{"fit":{"rounds":-1}}}'], ['api/guess?from=up', '[]'], ['api/guess?from=source', '[[1,2,"x"]]'],
-      ['api/fit', '{"nonsense":1}'], ['api/export', '{"names":["../../x.glb"]}'], ['api/project', 'null'],
+      ['api/fit', '{"nonsense":1}'], ['api/export', '{"names":["../../x.glb"]}'], ['api/projects/add', 'null'], ['api/projects/add', '[{"name":"project.json","size":9}]\n{}'],
+      ['api/picture', 'x'], ['api/document?project=99', '{}'], ['api/document?project=x', '{}'],
       ['api/markers/import?name=x.csv', '\xff\xfe'], ['api/morph', '{}'],
     ])
       assert.equal((await post(root + path, body)).status, 400, `${path} ${body.slice(0, 40)}`)

@@ -41,8 +41,9 @@ struct House {
         return {{"markers", markers}, {"options", {{"fit", {{"rounds", 3}}}}}};
     }
     std::unique_ptr<Session> open(bool named = true) {
-        return std::make_unique<Session>(
-            project, named ? std::vector<fs::path>{source, target} : std::vector<fs::path>{}, events);
+        return std::make_unique<Session>(project,
+                                         named ? std::vector<fs::path>{source, target} : std::vector<fs::path>{},
+                                         events, scratch.path("shelf"));
     }
 };
 
@@ -162,7 +163,9 @@ TEST(Session, notices_a_mesh_that_changed) {
     EXPECT_EQ(session->changes(), Json({{"source", false}, {"target", false}}));
     write_mesh(sphere(2), house.source);
     EXPECT_EQ(session->changes(), Json({{"source", true}, {"target", false}}));
-    session->reload(Side::source);
+    const Json again = session->examine_again(Side::source);
+    session->set_document(
+        {{"models", {{"source", again["model"]}, {"target", session->state()["document"]["models"]["target"]}}}});
     EXPECT_EQ(session->changes()["source"], false);
     EXPECT_EQ(session->state()["meshes"]["source"]["vertices"], sphere(2).positions.rows());
     session.reset();
@@ -187,10 +190,19 @@ TEST(Session, refuses_what_cannot_be_and_keeps_what_was) {
     message_of(ErrorKind::argument, [&] { session->start_fit({{"rounds", 1e9}}); });
     message_of(ErrorKind::argument, [&] { session->start_fit({{"nonsense", 1}}); });
     message_of(ErrorKind::argument, [&] { session->set_document({{"markers", 3}}); });
-    message_of(ErrorKind::file, [&] { session->open_upload(Side::target, "new.ply", "ply\ngarbage"); });
+    EXPECT_EQ(message_of(ErrorKind::file, [&] { session->add_model(Side::target, "new.ply", "ply\ngarbage"); })
+                  .find(house.project.parent_path().string()),
+              std::string::npos)
+        << "where the studio keeps it is nobody's business";
     message_of(ErrorKind::file,
-               [&] { session->open_upload(Side::target, "far.gltf", R"({"buffers":[{"uri":"/etc/passwd"}]})"); });
-    message_of(ErrorKind::file, [&] { session->open(Side::target, "/etc/passwd"); });
+               [&] { session->add_model(Side::target, "far.gltf", R"({"buffers":[{"uri":"/etc/passwd"}]})"); });
+    Json reaching = House::document();
+    reaching["models"] = {{"source", nullptr}, {"target", {{"path", "/etc/passwd"}, {"hash", ""}}}};
+    message_of(ErrorKind::file, [&] { session->set_document(reaching); });
+    message_of(ErrorKind::argument, [&] { session->set_document(House::document(), 7); });
+    Json doubled = House::document();
+    doubled["markers"][0]["name"] = doubled["markers"][1]["name"] = "nose";
+    EXPECT_NE(message_of(ErrorKind::argument, [&] { session->set_document(doubled); }).find("nose"), std::string::npos);
     EXPECT_EQ(session->project_json(), before);
     session->set_document({{"markers", Json::array()}});
     EXPECT_NE(message_of(ErrorKind::argument,
@@ -219,13 +231,35 @@ TEST(Session, guesses_and_suggests) {
 TEST(Session, markers_go_out_and_come_in) {
     House house;
     const auto session = house.open();
-    session->set_document(House::document());
-    const std::string csv = session->export_markers("csv");
-    const Json back = session->import_markers("m.csv", csv, "", "");
-    ASSERT_EQ(back["pairs"].size(), 6U);
-    EXPECT_EQ(back["pairs"][3]["target"], House::document()["markers"][3]["target"]);
-    const std::string told = message_of(ErrorKind::file, [&] { session->import_markers("m.csv", "\xff\xfe", "", ""); });
+    Json document = House::document();
+    document["markers"][1]["source"] = nullptr;
+    session->set_document(document);
+    const Json written = session->export_markers("csv");
+    ASSERT_EQ(written["files"].size(), 1U);
+    const Json back = session->import_markers({{"m.csv", written["files"][0]["text"]}}, {});
+    ASSERT_EQ(back["markers"].size(), 6U) << "those with one side too";
+    for (const Json& one : back["markers"]) {
+        const Json& there = document["markers"][std::stoul(one["name"].get<std::string>()) - 1];
+        EXPECT_EQ(one["source"], there["source"]);
+        EXPECT_EQ(one["target"], there["target"]);
+    }
+    EXPECT_EQ(session->export_markers("pp")["files"].size(), 2U);
+    message_of(ErrorKind::argument, [&] { session->export_markers("docx"); });
+    const std::string told = message_of(ErrorKind::file, [&] { session->import_markers({{"m.csv", "\xff\xfe"}}, {}); });
     EXPECT_EQ(told.find("/tmp"), std::string::npos) << "the temporary folder is nobody's business: " << told;
+}
+
+TEST(Session, warns_of_markers_off_the_surface) {
+    House house;
+    const auto session = house.open();
+    session->set_document(House::document());
+    EXPECT_TRUE(session->marker_warnings().empty());
+    Json document = House::document();
+    document["markers"][0]["name"] = "tip";
+    document["markers"][0]["source"] = {-1.6, 0, 0};
+    session->set_document(document);
+    ASSERT_EQ(session->marker_warnings().size(), 1U);
+    EXPECT_NE(session->marker_warnings()[0].get<std::string>().find("tip"), std::string::npos);
 }
 
 } // namespace

@@ -89,3 +89,40 @@ export async function saved(page) {
 export async function ready(page) {
   await page.waitForFunction(() => ['source', 'target'].every((side) => window.studio.models[side]?.pickingTree))
 }
+
+// A ball of triangles as OBJ.
+export function ball(radius, shift = 0, rings = 10) {
+  const lines = []
+  const parts = 2 * rings
+  const at = (r, p) => (r - 1) * parts + (p % parts) + 1
+  for (let r = 1; r < rings; ++r)
+    for (let p = 0; p < parts; ++p) {
+      const [a, b] = [(Math.PI * r) / rings, (2 * Math.PI * p) / parts]
+      lines.push(`v ${radius * Math.sin(a) * Math.sin(b) + shift} ${radius * Math.cos(a)} ${radius * Math.sin(a) * Math.cos(b)}`)
+    }
+  const [top, low] = [(rings - 1) * parts + 1, (rings - 1) * parts + 2]
+  lines.push(`v ${shift} ${radius} 0`, `v ${shift} ${-radius} 0`)
+  for (let p = 0; p < parts; ++p) {
+    lines.push(`f ${top} ${at(1, p)} ${at(1, p + 1)}`, `f ${low} ${at(rings - 1, p + 1)} ${at(rings - 1, p)}`)
+    for (let r = 1; r < rings - 1; ++r) lines.push(`f ${at(r, p)} ${at(r + 1, p)} ${at(r + 1, p + 1)}`, `f ${at(r, p)} ${at(r + 1, p + 1)} ${at(r, p + 1)}`)
+  }
+  return lines.join('\n') + '\n'
+}
+
+// Drops files on an element, as the browser tells of them.
+export const drop = (page, selector, files) =>
+  page.evaluate(
+    ([selector, files]) => {
+      const data = new DataTransfer()
+      for (const { name, text, type, size } of files) {
+        const file = new File([text ?? ''], name, { type: type ?? '' })
+        if (size) Object.defineProperty(file, 'size', { value: size })
+        data.items.add(file)
+      }
+      const event = new DragEvent('drop', { bubbles: true, cancelable: true, dataTransfer: data })
+      document.querySelector(selector).dispatchEvent(event)
+    },
+    [selector, files],
+  )
+
+export const toast = (page, text) => page.locator('.toasts p').filter({ hasText: text }).first()

@@ -1,7 +1,5 @@
 #include "files.h"
 
-#include "project.h"
-
 #include "meshtween/core/error.h"
 
 #include <fmt/format.h>
@@ -12,6 +10,33 @@
 namespace meshtween::studio {
 namespace fs = std::filesystem;
 namespace {
+
+constexpr std::string_view forbidden_signs = "\"*:<>?|";
+constexpr std::size_t longest_name = 120; // bytes; file systems end at 255
+
+// The bytes of the letter that a text begins with; 0 where it is no UTF-8.
+std::size_t letter_length(std::string_view text) {
+    const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
+    const unsigned first = byte(0);
+    if (first < 0x80) return 1;
+    const std::size_t length = first >= 0xF0 && first < 0xF5 ? 4 : first >= 0xE0 ? 3 : first >= 0xC2 ? 2 : 0;
+    if (first >= 0xF5) return 0;
+    for (std::size_t i = 1; i < length; ++i)
+        if (byte(i) < 0x80 || byte(i) > 0xBF) return 0;
+    const bool overlong = (first == 0xE0 && byte(1) < 0xA0) || (first == 0xF0 && byte(1) < 0x90);
+    const bool no_letter = (first == 0xED && byte(1) > 0x9F) || (first == 0xF4 && byte(1) > 0x8F); // surrogates, beyond
+    return overlong || no_letter ? 0 : length;
+}
+
+// Cut between letters; the ending, which tells the format, stays.
+std::string shortened(std::string name) {
+    if (name.size() <= longest_name) return name;
+    std::string ending = fs::path(name).extension().string();
+    if (ending.size() > 12) ending.clear();
+    std::size_t end = longest_name - ending.size();
+    while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U) --end;
+    return name.substr(0, end) + ending;
+}
 
 bool inside(const fs::path& file, const fs::path& folder) {
     const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
@@ -38,29 +63,34 @@ fs::path state_folder() {
                 "there is no home folder to keep projects in; set XDG_STATE_HOME or use --project FILE");
 }
 
-fs::path project_of(const fs::path& source, const fs::path& target) {
-    const std::string names = plain_name(source.stem().string()) + "-" + plain_name(target.stem().string());
-    const std::string key = fs::weakly_canonical(source).string() + "\n" + fs::weakly_canonical(target).string();
-    return state_folder() / (names.substr(0, 80) + "-" + hash_of_bytes(key).substr(0, 8)) / "project.json";
-}
-
 std::string plain_name(std::string_view name) {
     name = name.substr(name.find_last_of("/\\") + 1); // npos + 1 is 0
     std::string plain;
-    for (const char c : name.substr(0, 120)) {
-        const bool kept = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
-                          c == '-' || c == '_' || c == '#';
-        plain += kept ? c : '_';
+    while (!name.empty()) {
+        const std::size_t length = letter_length(name);
+        const auto first = static_cast<unsigned char>(name[0]);
+        const bool forbidden =
+            length == 0 || first < 0x20 || first == 0x7F || forbidden_signs.find(name[0]) != std::string_view::npos;
+        if (forbidden)
+            plain += '_';
+        else
+            plain += name.substr(0, length);
+        name.remove_prefix(std::max<std::size_t>(length, 1));
     }
-    plain.erase(0, std::min(plain.find_first_not_of('.'), plain.size()));
+    plain.erase(0, std::min(plain.find_first_not_of(". "), plain.size()));
+    plain.erase(plain.find_last_not_of(". ") + 1);
     if (plain.empty()) throw Error(ErrorKind::argument, "a file needs a name");
-    return plain;
+    return shortened(std::move(plain));
 }
 
 Access::Access(const fs::path& folder) : folder_(made(folder)) {}
 
 void Access::open(const fs::path& file) {
     opened_.insert(fs::weakly_canonical(file));
+}
+
+bool Access::holds(const fs::path& file) const {
+    return inside(fs::weakly_canonical(file), folder_);
 }
 
 fs::path Access::checked(const fs::path& file) const {
@@ -74,10 +104,11 @@ fs::path Access::checked(const fs::path& file) const {
 }
 
 fs::path Access::place_for(std::string_view subfolder, std::string_view name) const {
-    const fs::path place = made(folder_ / subfolder);
-    if (!inside(place, folder_))
+    const fs::path wanted = fs::weakly_canonical(folder_ / subfolder);
+    if (wanted != folder_ && !inside(wanted, folder_)) // before anything is made there
         throw Error(ErrorKind::file,
                     fmt::format("{} leads out of the project's folder", (folder_ / subfolder).string()));
+    const fs::path place = made(wanted);
     const fs::path file = place / plain_name(name);
     if (fs::is_symlink(file) || !inside(fs::weakly_canonical(file), folder_))
         throw Error(ErrorKind::file, fmt::format("{} is a link; it is not written through", file.string()));

@@ -11,11 +11,9 @@ namespace meshtween::studio {
 // $XDG_STATE_HOME/meshtween/studio, by default ~/.local/state/meshtween/studio. Throws Error(file) without a home.
 std::filesystem::path state_folder();
 
-// The project file that belongs to a pair of meshes: the same pair always finds it again.
-std::filesystem::path project_of(const std::filesystem::path& source, const std::filesystem::path& target);
-
-// A name without folders, of letters, digits, dots, dashes, underscores and # (which counts frames), not starting with
-// a dot; other bytes become underscores. Throws Error(argument) where nothing is left.
+// A file's name without folders. It keeps its letters, of any script, and its spaces; what some system forbids in names
+// (control characters, " * : < > ? |) and bytes that are no UTF-8 become underscores. It does not start with a dot or a
+// space, ends with neither, and of a very long one the ending stays. Throws Error(argument) where nothing is left.
 std::string plain_name(std::string_view name);
 
 class Access {
@@ -23,6 +21,8 @@ public:
     explicit Access(const std::filesystem::path& folder); // the project's; made where it does not exist
     void open(const std::filesystem::path& file);         // the user named it
     const std::filesystem::path& folder() const { return folder_; }
+
+    bool holds(const std::filesystem::path& file) const; // whether it lies in the folder
 
     // The file with all links resolved. Throws Error(file) where it is neither opened nor in the folder.
     std::filesystem::path checked(const std::filesystem::path& file) const;

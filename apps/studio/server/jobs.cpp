@@ -1,6 +1,11 @@
 #include "jobs.h"
 
+#include "meshtween/core/error.h"
+
+#include <fmt/format.h>
+
 #include <chrono>
+#include <cstdio>
 #include <new>
 
 namespace meshtween::studio {
@@ -44,9 +49,15 @@ void Jobs::run(const std::string& kind, const Work& work) {
     } catch (const std::bad_alloc&) {
         end["state"] = "failed";
         end["error"] = "out of memory; use smaller meshes or a larger machine";
-    } catch (const std::exception& error) {
+    } catch (const Error& error) {
         end["state"] = "failed";
         end["error"] = error.what();
+    } catch (const std::exception& error) { // what it says is for the terminal
+        fmt::print(stderr, "{}: {}\n", kind, error.what());
+        end["state"] = "failed";
+        end["error"] =
+            "something went wrong that this program did not expect; what was there before is still there, and "
+            "the program's terminal says more";
     }
     running_ = false;
     tell(std::move(end));

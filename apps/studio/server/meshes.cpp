@@ -7,6 +7,7 @@
 #include "meshtween/core/parallel.h"
 #include "meshtween/fit/markers.h"
 #include "meshtween/geometry/measure.h"
+#include "meshtween/io/mesh_file.h"
 #include "meshtween/io/mesh_io.h"
 
 #include <fmt/format.h>
@@ -81,10 +82,22 @@ std::shared_ptr<const OpenMesh> open_mesh(const std::filesystem::path& path) {
                                                      std::move(findings), std::move(index)});
 }
 
+std::shared_ptr<const OpenMesh> open_as(const std::filesystem::path& path, const std::string& name) {
+    try {
+        return open_mesh(path);
+    } catch (const Error& error) {
+        std::string told = error.what();
+        if (const std::size_t at = told.find(path.string()); at != std::string::npos)
+            told.replace(at, path.string().size(), name);
+        throw Error(error.kind(), told);
+    }
+}
+
 Json to_json(const OpenMesh& open) {
     Json findings = Json::array();
     for (const Finding& finding : open.findings)
         findings.push_back({{"warning", finding.severity != Severity::note}, {"what", finding.what}});
+    const Json notes = open.mesh.file ? Json(open.mesh.file->notes) : Json::array();
     return {{"name", open.path.filename().string()},
             {"path", open.path.string()},
             {"hash", open.hash},
@@ -93,6 +106,7 @@ Json to_json(const OpenMesh& open) {
             {"frame", to_json(open.frame)},
             {"colors", open.mesh.colors.rows() > 0},
             {"uvs", open.mesh.texcoords.rows() > 0},
+            {"notes", notes},
             {"findings", findings}};
 }
 
@@ -106,6 +120,7 @@ bool changed_on_disk(const OpenMesh& open) {
 
 Fitted shown(const OpenMesh& source, const OpenMesh& target, Points positions) {
     Fitted fitted;
+    fitted.of = source.hash + target.hash;
     fitted.mesh = source.mesh;
     fitted.mesh.positions = std::move(positions);
     const Points& points = fitted.mesh.positions;
@@ -125,6 +140,7 @@ Fitted examined(const OpenMesh& source, const OpenMesh& target, const FitResult&
     Fitted fitted = shown(source, target, result.positions);
     keep_going(progress, 0.1, "measuring");
     fitted.summary = meshtween::to_json(result);
+    fitted.summary["of"] = fitted.of;
     fitted.summary["mark"] = mark_of(markers);
     const std::vector<Marker> placed = place_markers(complete_pairs(markers), source.mesh);
     const Quality quality = measure(source.mesh, fitted.mesh, target.mesh, {}, placed);

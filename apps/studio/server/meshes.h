@@ -31,11 +31,14 @@ struct OpenMesh {
 
 // Throws Error(file) for what cannot be read or worked with.
 std::shared_ptr<const OpenMesh> open_mesh(const std::filesystem::path& path);
+// The same; messages name the file as the person knows it, not where it is kept.
+std::shared_ptr<const OpenMesh> open_as(const std::filesystem::path& path, const std::string& name);
 Json to_json(const OpenMesh& open);
 bool changed_on_disk(const OpenMesh& open); // reads the file again only where its time or size differ
 
 // A fit with what the page shows on it.
 struct Fitted {
+    std::string of;           // the hashes of source and target
     Mesh mesh;                // the source's mesh on the target's surface
     Eigen::VectorXd distance; // a value a vertex: to the target, percent of its diagonal
     Eigen::VectorXd stretch;  // a value a vertex: of the map source -> fitted, 1 where nothing is stretched

@@ -66,6 +66,28 @@ PlacedMarker marker_from_json(const Json& json, std::size_t number) {
     return marker;
 }
 
+// What older files hold: two markers of one name could not be told apart in any file of markers.
+void number_doubled_names(std::vector<PlacedMarker>& markers) {
+    std::set<std::string> names;
+    for (const PlacedMarker& marker : markers) names.insert(marker.name);
+    std::set<std::string> seen;
+    for (PlacedMarker& marker : markers) {
+        if (marker.name.empty() || seen.insert(marker.name).second) continue;
+        int number = 2;
+        while (names.contains(fmt::format("{} {}", marker.name, number))) ++number;
+        marker.name = fmt::format("{} {}", marker.name, number);
+        names.insert(marker.name);
+        seen.insert(marker.name);
+    }
+}
+
+Json object_in(const Json& json, const char* key) {
+    const auto found = json.find(key);
+    return found != json.end() && found->is_object() ? *found : Json::object();
+}
+
+} // namespace
+
 Json to_json(const MeshFile& file, const std::filesystem::path& folder) {
     if (file.path.empty()) return nullptr;
     const auto relative = file.path.lexically_relative(folder);
@@ -79,13 +101,6 @@ MeshFile file_from_json(const Json& json, const std::filesystem::path& folder) {
     const auto hash = json.find("hash");
     return {(folder / path).lexically_normal(), hash != json.end() && hash->is_string() ? *hash : Json("")};
 }
-
-Json object_in(const Json& json, const char* key) {
-    const auto found = json.find(key);
-    return found != json.end() && found->is_object() ? *found : Json::object();
-}
-
-} // namespace
 
 Side side_of(std::string_view name) {
     if (name == "source") return Side::source;
@@ -125,7 +140,17 @@ std::vector<PlacedMarker> markers_from_json(const Json& json) {
     return markers;
 }
 
+void refuse_doubled_names(const std::vector<PlacedMarker>& markers) {
+    std::set<std::string_view> names;
+    for (const PlacedMarker& marker : markers)
+        if (!marker.name.empty() && !names.insert(marker.name).second)
+            throw Error(ErrorKind::argument,
+                        fmt::format("two markers are called \"{}\"; give one of them another name", marker.name));
+}
+
 Json to_json(const Project& project, const std::filesystem::path& folder) {
+    Json named = Json::array();
+    for (const auto& path : project.named) named.push_back(path.string());
     return {{"meshtween_project", version},
             {"source", to_json(project.source, folder)},
             {"target", to_json(project.target, folder)},
@@ -133,6 +158,7 @@ Json to_json(const Project& project, const std::filesystem::path& folder) {
             {"timing", project.timing},
             {"options", project.options},
             {"markers", to_json(project.markers)},
+            {"named", named},
             {"fit", project.fit}};
 }
 
@@ -146,9 +172,12 @@ Project project_from_json(const Json& json, const std::filesystem::path& folder)
     project.source = file_from_json(json.value("source", Json()), folder);
     project.target = file_from_json(json.value("target", Json()), folder);
     project.markers = markers_from_json(json.value("markers", Json::array()));
+    number_doubled_names(project.markers);
     project.symmetry = object_in(json, "symmetry");
     project.timing = object_in(json, "timing");
     project.options = object_in(json, "options");
+    for (const Json& path : json.value("named", Json::array()))
+        if (path.is_string()) project.named.insert(path.get<std::string>());
     project.fit = json.value("fit", Json());
     return project;
 }

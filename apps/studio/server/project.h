@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -34,22 +35,30 @@ struct MeshFile {
 struct Project {
     MeshFile source, target;
     std::vector<PlacedMarker> markers;
-    Json symmetry = Json::object(); // the page's own: plane and switch
-    Json timing = Json::object();   // when each part moves, see timing.h
-    Json options = Json::object();  // {"fit": {...}, "morph": {...}}
-    Json fit;                       // what the last fit found out; null where there is none
+    Json symmetry = Json::object();        // the page's own: plane and switch
+    Json timing = Json::object();          // when each part moves, see timing.h
+    Json options = Json::object();         // {"fit": {...}, "morph": {...}}
+    std::set<std::filesystem::path> named; // files elsewhere that were its models before: undo may bring them back
+    Json fit;                              // what the last fit found out; null where there is none
 
     MeshFile& file(Side side) { return side == Side::source ? source : target; }
     const MeshFile& file(Side side) const { return side == Side::source ? source : target; }
 };
 
+// {path, hash}, the path relative where the file lies in `folder`; null where there is none.
+Json to_json(const MeshFile& file, const std::filesystem::path& folder);
+MeshFile file_from_json(const Json& json, const std::filesystem::path& folder);
+
 Json to_json(const std::vector<PlacedMarker>& markers);
 // Throws Error(argument) naming the marker: no or a repeated id, a coordinate that is not a finite number, too many.
 std::vector<PlacedMarker> markers_from_json(const Json& json);
+// Throws Error(argument) where two markers have one name. Names may be empty: such markers go by their number.
+void refuse_doubled_names(const std::vector<PlacedMarker>& markers);
 
 // Paths inside `folder`, where the file lies, are written relative to it.
 Json to_json(const Project& project, const std::filesystem::path& folder);
-Project project_from_json(const Json& json, const std::filesystem::path& folder); // throws Error(argument)
+// Of several markers with one name all but the first get a number behind it. Throws Error(argument).
+Project project_from_json(const Json& json, const std::filesystem::path& folder);
 
 // 16 hexadecimal digits, of a file's bytes (throws Error(file)) and of these bytes.
 std::string hash_of(const std::filesystem::path& file);

@@ -12,7 +12,7 @@
 namespace meshtween::studio {
 namespace {
 
-constexpr std::size_t small = 1 << 20, document_size = 16 << 20;
+constexpr std::size_t small = 1 << 20, document_size = 16 << 20, history_size = 256 << 20;
 
 Reply json(const Json& value) {
     return {value.dump(-1, ' ', false, Json::error_handler_t::replace), "application/json", {}};
@@ -57,60 +57,95 @@ void add_meshes(Routes& all, Session& s, std::size_t most_upload) {
     all["GET /api/path"] = {
         [&s](const Question& q) { return binary(s.path_buffer(q.at("key"), number(q.at("node")), q.at("what"))); }};
     all["GET /api/changes"] = {[&s](const Question&) { return json(s.changes()); }};
-    all["POST /api/upload"] = {[&s](const Question& q) {
-                                   s.open_upload(side_of(q.at("side")), q.at("name"), q.body);
-                                   return done();
-                               },
-                               most_upload, true};
-    all["POST /api/reload"] = {[&s](const Question& q) {
-                                   s.reload(side_of(q.at("side")));
-                                   return done();
-                               },
-                               small, true};
-    all["POST /api/sample"] = {[&s](const Question& q) {
-                                   s.open_sample(q.at("name"), optional_text(q, "markers") == "yes");
-                                   return done();
-                               },
-                               small, true};
+    all["POST /api/upload"] = {
+        [&s](const Question& q) { return json(s.add_model(side_of(q.at("side")), q.at("name"), q.body)); }, most_upload,
+        true};
+    all["POST /api/examine"] = {[&s](const Question& q) { return json(s.examine_again(side_of(q.at("side")))); }, small,
+                                true};
+    all["GET /api/fitted-file"] = {[&s](const Question&) { return binary(s.fitted_bytes()); }};
+    all["GET /api/model"] = {[&s](const Question& q) { return binary(s.model_bytes(side_of(q.at("side")))); }};
 }
 
-void add_project(Routes& all, Session& s) {
-    all["GET /api/state"] = {[&s](const Question&) { return json(s.state()); }};
+// Several files in one body: a line of JSON, [{name, size}, ...], and then their bytes.
+std::vector<NamedBytes> files_in(const std::string& body) {
+    const std::size_t end = std::min(body.find('\n'), body.size());
+    const Json list = Json::parse(body.substr(0, end), nullptr, false);
+    std::vector<NamedBytes> files;
+    std::size_t at = end + 1;
+    if (!list.is_array()) throw Error(ErrorKind::argument, "a list of files is needed");
+    for (const Json& one : list) {
+        if (!one.is_object() || !one.contains("name") || !one["name"].is_string() || !one.contains("size") ||
+            !one["size"].is_number_unsigned())
+            throw Error(ErrorKind::argument, "a file needs a name and a size");
+        const std::size_t size = one["size"];
+        if (at > body.size() || size > body.size() - at)
+            throw Error(ErrorKind::argument, "the files are shorter than their list says");
+        files.push_back({one["name"], body.substr(at, size)});
+        at += size;
+    }
+    return files;
+}
+
+void add_project(Routes& all, Session& s, std::size_t most_upload) {
+    all["GET /api/state"] = {[&s, most_upload](const Question&) {
+        Json state = s.state();
+        state["most_upload"] = most_upload;
+        return json(state);
+    }};
     all["GET /api/project"] = {[&s](const Question&) {
         return Reply{s.project_json().dump(2) + "\n", "application/json", "project.json"};
     }};
-    all["POST /api/document"] = {[&s](const Question& q) {
-                                     s.set_document(q.json());
-                                     return done();
-                                 },
-                                 document_size, true};
-    all["POST /api/project"] = {[&s](const Question& q) {
-                                    s.open_project(q.json());
-                                    return done();
-                                },
-                                document_size, true};
-    all["POST /api/new"] = {[&s](const Question&) {
-                                s.clear();
-                                return done();
-                            },
-                            small, true};
+    const auto then_done = [&all](const std::string& name, std::size_t most, auto run) {
+        all["POST /api/" + name] = {[run](const Question& q) {
+                                        run(q);
+                                        return done();
+                                    },
+                                    most, true};
+    };
+    then_done("document", document_size, [&s](const Question& q) {
+        const std::string number_text = optional_text(q, "project");
+        s.set_document(q.json(), number_text.empty() ? std::optional<int>() : int(number(number_text)));
+    });
+    then_done("history", history_size, [&s](const Question& q) { s.set_history(q.body); });
+    then_done("picture", small, [&s](const Question& q) { s.set_picture(q.body); });
+    all["GET /api/history"] = {[&s](const Question&) { return Reply{s.history(), "application/json", {}}; }};
+    all["GET /api/states"] = {[&s](const Question&) { return json(s.kept_states()); }};
+    all["GET /api/kept"] = {[&s](const Question& q) { return json(s.kept_document(q.at("name"))); }};
+}
+
+void add_projects(Routes& all, Session& s, std::size_t most_upload) {
+    all["GET /api/projects"] = {[&s](const Question&) { return json(s.projects()); }};
+    all["GET /api/projects/picture"] = {[&s](const Question& q) {
+        return Reply{s.project_picture(q.at("id")), "image/png", {}};
+    }};
+    // A project with its models is not opened at once: until then the page can change its mind.
+    all["POST /api/projects/add"] = {[&s](const Question& q) {
+                                         return json({{"id", s.add_project(files_in(q.body))}});
+                                     },
+                                     2 * most_upload + document_size, true};
+    const auto then_done = [&all](const std::string& name, auto run) {
+        all["POST /api/" + name] = {[run](const Question& q) {
+                                        run(q);
+                                        return done();
+                                    },
+                                    small, true};
+    };
+    then_done("projects/open", [&s](const Question& q) { s.open_project(q.at("id")); });
+    then_done("sample", [&s](const Question& q) { s.open_sample(q.at("name"), optional_text(q, "markers") == "yes"); });
+    then_done("new", [&s](const Question&) { s.new_project(); });
 }
 
 void add_markers(Routes& all, Session& s) {
     all["POST /api/markers/import"] = {
         [&s](const Question& q) {
-            // Two files come one after the other; `first` says how long the first is.
-            const std::string second = optional_text(q, "second");
-            const std::size_t first = second.empty() ? q.body.size() : std::min(number(q.at("first")), q.body.size());
-            return json(s.import_markers(q.at("name"), q.body.substr(0, first), second, q.body.substr(first)));
+            const std::string side = optional_text(q, "side");
+            return json(s.import_markers(files_in(q.body), side.empty() ? std::optional<Side>() : side_of(side)));
         },
         document_size};
-    all["GET /api/markers/export"] = {[&s](const Question& q) {
-        const std::string extension = plain_name(q.at("format"));
-        return Reply{s.export_markers(extension), "application/octet-stream", "markers." + extension};
-    }};
+    all["GET /api/markers/export"] = {[&s](const Question& q) { return json(s.export_markers(q.at("format"))); }};
     all["POST /api/guess"] = {[&s](const Question& q) { return json(s.guesses(side_of(q.at("from")), q.json())); },
                               small};
+    all["GET /api/warnings"] = {[&s](const Question&) { return json(s.marker_warnings()); }};
     all["GET /api/suggestions"] = {[&s](const Question&) { return json(s.suggestions()); }};
 }
 
@@ -164,7 +199,8 @@ Routes routes(Session& session, Tabs& tabs, Events& events, std::size_t most_upl
     Routes all;
     add_page(all);
     add_meshes(all, session, most_upload);
-    add_project(all, session);
+    add_project(all, session, most_upload);
+    add_projects(all, session, most_upload);
     add_markers(all, session);
     add_jobs(all, session);
     add_tabs(all, tabs, events);

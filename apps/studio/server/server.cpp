@@ -13,6 +13,11 @@ namespace {
 
 constexpr int most_streams = 8, threads = 24; // a stream of events holds a thread
 
+// What an exception of another kind says is for the terminal, not for the page.
+constexpr const char* unexpected =
+    "something went wrong that this program did not expect; nothing was changed, and its "
+    "terminal says more";
+
 std::string only_header(const httplib::Request& request, const char* name) {
     const auto count = request.get_header_value_count(name);
     return count == 0 ? "" : count == 1 ? request.get_header_value(name) : "(several)";
@@ -41,6 +46,16 @@ httplib::Headers safe_headers() {
          "connect-src 'self'; worker-src 'self' blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"}};
 }
 
+std::string percent_encoded(std::string_view text) {
+    std::string encoded;
+    for (const char c : text) {
+        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
+                           c == '-' || c == '_';
+        encoded += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+    return encoded;
+}
+
 Question question_of(const httplib::Request& request, std::string body) {
     Question question;
     for (const auto& [name, value] : request.params) question.parameters.emplace(name, value);
@@ -58,7 +73,7 @@ const std::string& Question::at(const std::string& name) const {
 
 Json Question::json() const {
     Json json = Json::parse(body, nullptr, false);
-    if (json.is_discarded()) throw Error(ErrorKind::argument, "the request's body is no JSON");
+    if (json.is_discarded()) throw Error(ErrorKind::argument, "this is no JSON, or only a part of it");
     return json;
 }
 
@@ -70,7 +85,7 @@ Server::Server(Session& session, Events& events, int port, std::size_t most_uplo
     http_->set_keep_alive_max_count(1000);
     http_->set_keep_alive_timeout(1); // seconds: stopping waits for connections that idle
     http_->set_read_timeout(30);
-    http_->set_payload_max_length(most_upload);
+    http_->set_payload_max_length(2 * most_upload + (std::size_t(16) << 20)); // two models and their project
     http_->set_default_headers(safe_headers());
     http_->new_task_queue = [] { return new httplib::ThreadPool(threads); };
     // Without SO_REUSEPORT, which is the default: a second studio must not share the port.
@@ -147,7 +162,8 @@ void Server::answer(const httplib::Request& request, httplib::Response& response
     try {
         Reply reply = route.run(question_of(request, std::move(body)));
         if (!reply.download.empty())
-            response.set_header("Content-Disposition", fmt::format("attachment; filename=\"{}\"", reply.download));
+            response.set_header("Content-Disposition",
+                                "attachment; filename*=UTF-8''" + percent_encoded(reply.download));
         response.status = 200;
         response.body = std::move(reply.body);
         response.set_header("Content-Type", reply.type);
@@ -156,7 +172,8 @@ void Server::answer(const httplib::Request& request, httplib::Response& response
     } catch (const std::bad_alloc&) {
         refuse(response, 500, "out of memory; use smaller meshes or a larger machine");
     } catch (const std::exception& error) {
-        refuse(response, 500, error.what());
+        fmt::print(stderr, "{}: {}\n", request.path.substr(request.path.rfind('/')), error.what());
+        refuse(response, 500, unexpected);
     }
 }
 

@@ -75,12 +75,13 @@ Json told(const std::string& key, const PlayedPath& path) {
 }
 
 void Session::start_fit(const Json& values) {
+    const std::lock_guard editing(editing_);
     const FitOptions options = fit_options(values);
     const Open open = both();
     std::vector<PlacedMarker> markers;
     {
         const std::lock_guard lock(mutex_);
-        markers = project_.markers;
+        markers = work_->project.markers;
     }
     const std::size_t complete = complete_pairs(markers).size();
     if (options.method == FitMethod::paper && complete < 3)
@@ -108,6 +109,7 @@ std::function<void(const Points&)> Session::show_live() {
 
 Json Session::run_fit(const Open& open, const std::vector<PlacedMarker>& markers, FitOptions options,
                       const Progress& progress) {
+    keep_going(progress, 0, "placing the markers");
     options.watch = show_live();
     {
         const std::lock_guard lock(mutex_);
@@ -121,13 +123,13 @@ Json Session::run_fit(const Open& open, const std::vector<PlacedMarker>& markers
     auto fitted =
         std::make_shared<Fitted>(examined(*open.source, *open.target, result, markers, part_of(progress, 0.8, 0.95)));
     if (!keep_going(progress, 0.95, "saving")) return nullptr;
-    write_mesh(fitted->mesh, fitted_file());
+    write_mesh(fitted->mesh, fitted_file(file()));
     Json summary = fitted->summary;
     {
         const std::lock_guard lock(mutex_);
-        fitted_ = std::move(fitted);
+        work_->fitted = std::move(fitted);
         paths_.clear();
-        project_.fit = summary;
+        work_->project.fit = summary;
         save_locked();
     }
     return summary;
@@ -136,6 +138,7 @@ Json Session::run_fit(const Open& open, const std::vector<PlacedMarker>& markers
 void Session::start_path(const Json& request) {
     if (!request.is_object()) throw Error(ErrorKind::argument, "a path needs its options");
     const PathWanted wanted = path_wanted(request);
+    const std::lock_guard editing(editing_);
     const Open open = both();
     const auto fitted = need_fit();
     const std::string asked = request.dump(), key = hash_of_bytes(asked);
@@ -149,7 +152,7 @@ void Session::start_path(const Json& request) {
         path->normals = drawn_normals(path->curve, open.source->mesh.triangles);
         path->repair = found.repair;
         const std::lock_guard lock(mutex_);
-        if (fitted_ != fitted) throw Error(ErrorKind::computation, "the fit changed meanwhile; ask again");
+        if (work_->fit() != fitted) throw Error(ErrorKind::computation, "the fit changed meanwhile; ask again");
         paths_[key] = path;
         return told(key, *path);
     });
@@ -162,25 +165,28 @@ void Session::start_export(const Json& request) {
     const Json frames_value = request.value("frames", Json(11));
     const int frames = frames_value.is_number_integer() ? frames_value.get<int>() : 0;
     if (frames < 2 || frames > 100000) throw Error(ErrorKind::argument, "frames must lie between 2 and 100000");
+    const std::lock_guard editing(editing_);
     const Open open = both();
     const auto fitted = need_fit();
     std::vector<MarkerPair> pairs;
     std::vector<Output> outputs;
     {
         const std::lock_guard lock(mutex_);
-        pairs = complete_pairs(project_.markers);
+        pairs = complete_pairs(work_->project.markers);
         for (const Json& name : request["names"]) {
             if (!name.is_string()) throw Error(ErrorKind::argument, "names must be text");
-            outputs.push_back(output(access_.place_for("exports", name.get<std::string>()).string()));
+            outputs.push_back(output(work_->access.place_for("exports", name.get<std::string>()).string()));
         }
     }
     start(jobs_, "export", [open, fitted, wanted, frames, pairs, outputs](const Progress& progress) -> Json {
+        keep_going(progress, 0, "preparing");
         std::vector<Output> stills, plays;
         for (const Output& out : outputs) (out.kind == OutputKind::mesh ? stills : plays).push_back(out);
         Json files = Json::array();
         const auto tell = [&](const Written& written) {
             for (const auto& file : written.files) files.push_back(file.filename().string());
         };
+        if (!stills.empty() && !keep_going(progress, 0, "writing the fitted mesh")) return nullptr;
         if (!stills.empty()) tell(write_still(fitted->mesh, "source's mesh on the target", {}, stills));
         if (!plays.empty()) {
             const Mesh& source = open.source->mesh;
@@ -211,7 +217,7 @@ void Session::wait() {
 
 std::filesystem::path Session::exported(const std::string& name) const {
     const std::lock_guard lock(mutex_);
-    const auto file = access_.checked(access_.place_for("exports", name));
+    const auto file = work_->access.checked(work_->access.place_for("exports", name));
     if (!std::filesystem::is_regular_file(file)) throw Error(ErrorKind::file, "there is no export " + plain_name(name));
     return file;
 }
@@ -220,7 +226,7 @@ std::string Session::mesh_buffer(Side side, const std::string& what) const {
     std::shared_ptr<const OpenMesh> open;
     {
         const std::lock_guard lock(mutex_);
-        open = side == Side::source ? open_.source : open_.target;
+        open = work_->open.on(side);
     }
     if (!open) throw Error(ErrorKind::argument, fmt::format("no {} is open", name_of(side)));
     return buffer(open->mesh, open->frame, what);
@@ -254,7 +260,7 @@ std::string Session::path_buffer(const std::string& key, std::size_t node, const
         const std::lock_guard lock(mutex_);
         const auto found = paths_.find(key);
         if (found != paths_.end()) path = found->second;
-        source = open_.source;
+        source = work_->open.source;
     }
     if (!path || !source || node >= path->curve.nodes.size())
         throw Error(ErrorKind::argument, "there is no such path; ask for it again");

@@ -1,8 +1,10 @@
 // Markers from and to files, guesses and suggestions.
+#include "import.h"
 #include "session.h"
 #include "suggest.h"
 
 #include "meshtween/core/error.h"
+#include "meshtween/io/marker_distance.h"
 #include "meshtween/io/output.h"
 
 #include <fmt/format.h>
@@ -29,7 +31,10 @@ public:
     }
     Moment(const Moment&) = delete;
     Moment& operator=(const Moment&) = delete;
-    fs::path path(std::string_view name) const { return folder_ / plain_name(name); }
+    fs::path path(const std::string& folder, std::string_view name) const {
+        fs::create_directory(folder_ / folder);
+        return folder_ / folder / plain_name(name);
+    }
 
 private:
     fs::path folder_;
@@ -44,43 +49,80 @@ Json list(const Point& p) {
     return {p[0], p[1], p[2]};
 }
 
-} // namespace
-
-Json Session::import_markers(std::string_view name, const std::string& bytes, std::string_view second_name,
-                             const std::string& second_bytes) const {
-    const Open open = both();
-    const Moment moment;
-    const fs::path file = moment.path(name);
-    write_whole(file, bytes);
-    MarkerPairs read;
-    try {
-        if (second_name.empty()) {
-            read = read_marker_pairs(file, open.source->mesh, open.target->mesh);
-        } else {
-            const fs::path second = moment.path("target-" + plain_name(second_name));
-            write_whole(second, second_bytes);
-            read = read_marker_pairs(file, second, open.source->mesh, open.target->mesh);
-        }
-    } catch (const Error& error) {
-        throw Error(error.kind(), without(error.what(), file.parent_path().string() + "/"));
-    }
-    Json pairs = Json::array(), notes = Json::array();
-    for (const MarkerPair& pair : read.pairs)
-        pairs.push_back({{"name", pair.name}, {"source", list(pair.source)}, {"target", list(pair.target)}});
-    for (const std::string& note : read.notes) notes.push_back(without(note, file.parent_path().string() + "/"));
-    return {{"pairs", pairs}, {"notes", notes}};
+Json list(const std::optional<Point>& p) {
+    return p ? list(*p) : Json();
 }
 
-std::string Session::export_markers(const std::string& extension) const {
+} // namespace
+
+Json Session::import_markers(const std::vector<NamedBytes>& files, std::optional<Side> side) const {
+    if (files.empty() || files.size() > 2) throw Error(ErrorKind::argument, "one file of markers or two are needed");
+    const Open open = both();
+    const Moment moment;
+    std::vector<fs::path> paths{{}, {}};
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        // A folder a file: the two may have one name.
+        paths[i] = moment.path(std::to_string(i), files[i].name);
+        write_whole(paths[i], files[i].bytes);
+    }
+    const auto plain = [&](std::string text) {
+        for (const fs::path& path : paths)
+            if (!path.empty()) text = without(std::move(text), path.parent_path().string() + "/");
+        return text;
+    };
+    ImportedMarkers read;
+    try {
+        read = studio::import_markers(paths[0], paths[1], side, *open.source, *open.target);
+    } catch (const Error& error) {
+        throw Error(error.kind(), plain(error.what()));
+    }
+    Json markers = Json::array(), notes = Json::array();
+    for (const PartialPair& one : read.markers)
+        markers.push_back({{"name", one.name}, {"source", list(one.source)}, {"target", list(one.target)}});
+    for (const std::string& note : read.notes) notes.push_back(plain(note));
+    return {{"markers", markers}, {"notes", notes}, {"ask_side", read.ask_side}};
+}
+
+Json Session::export_markers(const std::string& format) const {
+    Open open;
+    std::vector<PartialPair> pairs;
+    {
+        const std::lock_guard lock(mutex_);
+        open = work_->open;
+        const auto& markers = work_->project.markers;
+        for (std::size_t i = 0; i < markers.size(); ++i)
+            if (markers[i].source || markers[i].target)
+                pairs.push_back({markers[i].name.empty() ? std::to_string(i + 1) : markers[i].name, markers[i].source,
+                                 markers[i].target});
+    }
+    const Mesh* source = open.source ? &open.source->mesh : nullptr;
+    const Mesh* target = open.target ? &open.target->mesh : nullptr;
+    const std::string ending = plain_name(format);
+    const Moment moment;
+    std::vector<fs::path> paths{moment.path("0", "markers." + ending)};
+    std::vector<std::string> notes;
+    if (holds_both_sides(paths[0])) {
+        notes = write_markers(pairs, paths[0], source, target);
+    } else {
+        paths = {moment.path("0", "markers-source." + ending), moment.path("0", "markers-target." + ending)};
+        notes = write_markers(pairs, paths[0], paths[1], source, target);
+    }
+    Json files = Json::array();
+    for (const fs::path& path : paths)
+        files.push_back({{"name", path.filename().string()}, {"text", read_whole(path)}});
+    return {{"files", files}, {"notes", notes}};
+}
+
+Json Session::marker_warnings() const {
+    Open open;
     std::vector<MarkerPair> pairs;
     {
         const std::lock_guard lock(mutex_);
-        pairs = complete_pairs(project_.markers);
+        open = work_->open;
+        pairs = complete_pairs(work_->project.markers);
     }
-    const Moment moment;
-    const fs::path file = moment.path("markers." + plain_name(extension));
-    write_marker_pairs(pairs, file);
-    return read_whole(file);
+    if (!open.source || !open.target) return Json::array();
+    return marker_distances(pairs, open.source->mesh, open.target->mesh).notes;
 }
 
 Pose Session::known_pose(const Open& open) const {
@@ -98,7 +140,7 @@ Json Session::guesses(Side from, const Json& points) const {
     std::vector<MarkerPair> pairs;
     {
         const std::lock_guard lock(mutex_);
-        pairs = complete_pairs(project_.markers);
+        pairs = complete_pairs(work_->project.markers);
     }
     if (!points.is_array() || points.size() > 5000)
         throw Error(ErrorKind::argument, "points must be a list of at most 5000");
@@ -121,8 +163,8 @@ Json Session::suggestions() const {
     Json fit;
     {
         const std::lock_guard lock(mutex_);
-        markers = project_.markers;
-        fit = fitted_ ? fitted_->summary : Json();
+        markers = work_->project.markers;
+        fit = work_->fit() ? work_->fit()->summary : Json();
     }
     return next_places(*open.source, markers, fit);
 }

@@ -1,12 +1,12 @@
 #include "studio.h"
 
+#include "projects.h"
 #include "server.h"
 
 #include "meshtween/core/error.h"
 #include "meshtween/io/output.h"
 
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,41 +17,25 @@ namespace meshtween::studio {
 namespace fs = std::filesystem;
 namespace {
 
-// The project that the last run without meshes, or with them, worked on.
-fs::path last_project_note() {
-    return state_folder() / "last";
+// Where projects that begin in the studio go: beside the named one where there is no home folder.
+fs::path choose_shelf(const StudioOptions& options) {
+    try {
+        return state_folder();
+    } catch (const Error&) {
+        if (options.project.empty()) throw;
+        return fs::absolute(options.project).parent_path() / "projects";
+    }
 }
 
-fs::path choose_project(const StudioOptions& options) {
+fs::path choose_project(const StudioOptions& options, const fs::path& shelf) {
     if (!options.project.empty()) return options.project;
-    if (options.meshes.size() == 2) return project_of(options.meshes[0], options.meshes[1]);
-    if (fs::exists(last_project_note())) {
-        const fs::path last = read_whole(last_project_note());
+    if (options.meshes.size() == 2) return project_of(shelf, options.meshes[0], options.meshes[1]);
+    if (fs::exists(shelf / "last")) {
+        const fs::path last = read_whole(shelf / "last");
         if (fs::exists(last)) return last;
     }
-    return state_folder() / "new" / "project.json";
+    return shelf / "new" / "project.json";
 }
-
-// One studio a project: two would overwrite each other's work. The lock ends with the process, however that ends.
-class ProjectLock {
-public:
-    explicit ProjectLock(const fs::path& project) {
-        const fs::path file = project.parent_path() / fmt::format(".{}.lock", project.filename().string());
-        descriptor_ = ::open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0600);
-        if (descriptor_ < 0)
-            throw Error(ErrorKind::file, fmt::format("{}: cannot write here", project.parent_path().string()));
-        if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0)
-            throw Error(ErrorKind::file, fmt::format("{} is open in another studio; close that one, or name another "
-                                                     "project with --project",
-                                                     project.string()));
-    }
-    ~ProjectLock() { ::close(descriptor_); }
-    ProjectLock(const ProjectLock&) = delete;
-    ProjectLock& operator=(const ProjectLock&) = delete;
-
-private:
-    int descriptor_ = -1;
-};
 
 void open_browser(const std::string& address) {
     if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
@@ -72,17 +56,17 @@ void run_studio(const StudioOptions& options) {
     for (const fs::path& mesh : options.meshes)
         if (!fs::is_regular_file(mesh))
             throw Error(ErrorKind::file, fmt::format("{}: there is no such file to open", mesh.string()));
-    const fs::path project = fs::absolute(choose_project(options));
+    const fs::path shelf = choose_shelf(options);
+    const fs::path project = fs::absolute(choose_project(options, shelf));
     std::error_code failure;
     fs::create_directories(project.parent_path(), failure);
-    const ProjectLock lock(project);
     Events events;
-    Session session(project, options.meshes, events);
+    Session session(project, options.meshes, events, shelf);
     if (const Json state = session.state();
         !options.meshes.empty() && (state["meshes"]["source"].is_null() || state["meshes"]["target"].is_null()))
         throw Error(ErrorKind::file,
                     state["notes"].empty() ? "the meshes could not be opened" : state["notes"][0].get<std::string>());
-    if (options.project.empty()) write_whole(last_project_note(), project.string());
+    if (options.project.empty()) write_whole(shelf / "last", project.string());
     Server server(session, events, options.port, options.most_upload);
     std::thread serving([&] { server.listen(); });
     if (options.ready) options.ready(server.guard().address());

@@ -379,6 +379,8 @@ void measure_markers(const Points& x, const Triangles& triangles, std::span<cons
 
 FitResult surface_fit(const Mesh& source_mesh, const Mesh& target_mesh, std::span<const Marker> given,
                       const FitOptions& options, const Progress& progress) {
+    // Before there is anything to keep, whoever asks to stop is heard at the next stage that can be left.
+    keep_going(progress, 0, "numbering the meshes");
     FitResult result;
     const Renumbered source = renumbered(source_mesh.positions, source_mesh.triangles);
     const std::vector<Marker> markers = in_order(given, source.triangle);
@@ -388,10 +390,12 @@ FitResult surface_fit(const Mesh& source_mesh, const Mesh& target_mesh, std::spa
     Points goals(std::ssize(markers), 3);
     for (std::size_t k = 0; k < markers.size(); ++k) goals.row(static_cast<Eigen::Index>(k)) = markers[k].target;
     goals = on_grid(frame.in(goals));
+    keep_going(progress, 0.01, "aligning");
     const Points rest = start(source, on_the_grid, markers, goals, result.notes)(source.positions);
     std::vector<Pin> pins;
     for (std::size_t k = 0; k < markers.size(); ++k)
         pins.push_back({markers[k].source, {0, 0, 0}, goals.row(static_cast<Eigen::Index>(k)), 1, 0});
+    keep_going(progress, 0.02, "preparing coarse levels");
     const Sides sides =
         prepared(rest, source.triangles, on_the_grid, pins, options.symmetry && options.marker_weight > 0);
     const FitTarget& target = *sides.target;

@@ -1,6 +1,6 @@
 // The page's state apart from the document: what is open, shown and selected, and how it comes from the program.
 import { Vector3 } from 'three'
-import { api, bytes, listen, tab } from './api'
+import { api, bytes, listen, Refused, Stopped, tab } from './api'
 import { Saver } from './save'
 import { clay, checker } from './scene/clay'
 import { Model, type Shading } from './scene/model'
@@ -28,9 +28,41 @@ export interface Toast {
   bad: boolean
 }
 
+// What the page waits for; `part` of it is done, where that is known, and `stop` ends it, where it can be.
+export interface Busy {
+  text: string
+  part?: number
+  stop?: () => void
+}
+
+// A question over the page. Each choice has its answer; Escape answers nothing.
+export interface Question {
+  title: string
+  lines: string[]
+  choices: { label: string; answer: string; primary?: boolean; aside?: string }[]
+  answer: (answer: string | null) => void
+}
+
+// What was said when a file was read, until it is put away.
+export interface Told {
+  from: string
+  notes: string[]
+}
+
+export const documentOf = (told: State['document']): Document => {
+  const empty = emptyDocument()
+  return {
+    models: told.models,
+    markers: told.markers,
+    symmetry: { ...empty.symmetry, ...told.symmetry },
+    timing: { ...empty.timing, ...told.timing },
+    options: { fit: told.options.fit ?? {}, morph: told.options.morph ?? {} },
+  }
+}
+
 class App {
   store = new Store()
-  saver = new Saver(() => this.changed())
+  saver = new Saver(this.store, () => this.state?.project.number ?? 0, () => this.changed(), (document, problem) => this.notSaved(document, problem))
   stage = new Stage()
   state: State | null = null
   step: Step = 'open'
@@ -43,9 +75,12 @@ class App {
   heat: Heat = 'stretch'
   heatMost = 0
   job: Job = {}
+  jobBegan = 0 // performance.now()
   editor = '' // the tab that may edit
   lost = false // no word from the program
-  busy = '' // what the page waits for
+  busy: Busy | null = null
+  question: Question | null = null
+  told: Told[] = []
   toasts: Toast[] = []
   helpOpen = false
   fitPlaces: string | null = null // where the markers were that the fit is of
@@ -57,6 +92,7 @@ class App {
   jobDone: (job: Job) => void = () => {}
   live: () => void = () => {}
   modelsChanged: () => void = () => {}
+  projectChanged: () => void = () => {}
   private loaded: Record<Side, string> = { source: '', target: '' }
   private fitted = ''
   private skin = clay()
@@ -105,17 +141,47 @@ class App {
     this.changed()
   }
 
-  // Runs what a person asked for; what goes wrong is told.
-  async attempt<T>(what: () => Promise<T>, busy = ''): Promise<T | undefined> {
-    if (busy) this.set({ busy })
+  // Runs what a person asked for; what goes wrong is told, in words that were meant for people.
+  async attempt<T>(what: (busy: Busy, signal: AbortSignal) => Promise<T>, text = '', canStop = false): Promise<T | undefined> {
+    const control = new AbortController()
+    const busy: Busy = { text, stop: canStop ? () => control.abort() : undefined }
+    if (text) this.set({ busy })
     try {
-      return await what()
+      return await what(busy, control.signal)
     } catch (error) {
-      this.toast((error as Error).message, true)
+      if (error instanceof Stopped) this.toast('Stopped. Nothing has changed.')
+      else if (error instanceof Refused) this.toast(error.message, true)
+      else if (error instanceof DOMException) this.toast('The browser cannot read that file any more; choose it again.', true)
+      else {
+        console.error(error)
+        this.toast('Something in this page went wrong. What you made is saved; loading the page anew helps.', true)
+      }
       return undefined
     } finally {
-      if (busy) this.set({ busy: '' })
+      if (this.busy === busy) this.set({ busy: null })
     }
+  }
+
+  // Asks over the page; the answer of the choice, or null.
+  ask(question: Omit<Question, 'answer'>): Promise<string | null> {
+    this.question?.answer(null)
+    return new Promise((resolve) => {
+      this.set({ question: { ...question, answer: (answer) => (this.set({ question: null }), resolve(answer)) } })
+    })
+  }
+
+  // Keeps what was said of a file in sight, in place of what was said of it before.
+  tell(from: string, notes: string[]) {
+    const rest = this.told.filter((one) => one.from !== from)
+    this.set({ told: notes.length > 0 ? [...rest, { from, notes }] : rest })
+  }
+
+  // A document that the program did not take: where its models are gone, it goes back to what is open.
+  private notSaved(document: Document, problem: string) {
+    const open = this.state?.document.models
+    if (!open || document !== this.store.document || JSON.stringify(document.models) === JSON.stringify(open)) return
+    this.toast(problem, true)
+    this.store.takeBack()
   }
 
   start() {
@@ -125,7 +191,7 @@ class App {
     })
     listen(
       {
-        job: (job: Job) => this.told(job),
+        job: (job: Job) => this.heard(job),
         tabs: ({ editor }: { editor: string }) => this.set({ editor }),
         state: () => void this.attempt(() => this.refresh(true)),
         live: () => this.live(),
@@ -138,7 +204,8 @@ class App {
     return this.attempt(() => this.refresh(true), 'Opening the project')
   }
 
-  private told(job: Job) {
+  private heard(job: Job) {
+    if (job.state === 'running' && !this.running) this.jobBegan = performance.now()
     this.set({ job })
     if (job.state === 'failed') this.toast(job.error ?? 'The job failed.', true)
     if (job.state === 'cancelled') this.toast('Cancelled. What was there before is still there.')
@@ -149,7 +216,7 @@ class App {
   private async catchUp() {
     const ran = this.running
     await this.refresh(false)
-    if (ran && !this.running) this.told(this.job)
+    if (ran && !this.running) this.heard(this.job)
   }
 
   private async lookOutside() {
@@ -158,48 +225,40 @@ class App {
     if (outside.source !== this.outside.source || outside.target !== this.outside.target) this.set({ outside })
   }
 
-  // Fetches the state and whatever of the meshes is not here yet.
+  // Fetches the state and whatever of the meshes is not here yet. The document is the page's own, and comes from the
+  // program only where another project is open, or another tab edits.
   async refresh(document: boolean) {
     const state = await api.state()
     const first = this.state === null
+    const another = this.state?.project.number !== state.project.number
     this.state = state
     this.job = state.job
-    if (document) {
-      const empty = emptyDocument()
-      const told: Document = {
-        markers: state.document.markers,
-        symmetry: { ...empty.symmetry, ...state.document.symmetry },
-        timing: { ...empty.timing, ...state.document.timing },
-        options: { fit: state.document.options.fit ?? {}, morph: state.document.options.morph ?? {} },
-      }
-      if (JSON.stringify(told) !== JSON.stringify(this.store.document)) this.store.replace(told)
+    if (another || (document && this.readOnly)) {
+      const told = documentOf(state.document)
+      if (another || JSON.stringify(told) !== JSON.stringify(this.store.document)) this.store.replace(told)
     }
-    if (first) this.keepHistory(state.project.file)
-    if (document) this.fitPlaces = state.fit_is_of_these_markers ? placesOf(this.store.document) : null
-    for (const note of state.notes) this.toast(note, true)
+    if (another) await this.begin(first)
+    if (document || another) this.fitPlaces = state.fit_is_of_these_markers ? placesOf(this.store.document) : null
     await Promise.all(sides.map((side) => this.loadMesh(side)))
     await this.loadFit()
-    if (first && state.meshes.source && state.meshes.target) this.step = 'markers'
-    if (first && state.fit) this.shown.add('result')
+    if (another && state.meshes.source && state.meshes.target) this.step = 'markers'
+    if (another && state.fit) this.shown.add('result')
     this.changed()
     this.stage.draw()
   }
 
-  // Undo reaches back over a reload of the page.
-  private keepHistory(project: string) {
-    const name = `history of ${project}`
+  // Another project is open: what belonged to the one before goes, and undo reaches back to where this one was left.
+  private async begin(first: boolean) {
+    if (!first) {
+      Object.assign(this, { selected: null, told: [], question: null, step: 'open' })
+      this.projectChanged()
+    }
+    this.tell('The project', this.state!.notes)
     try {
-      this.store.recall(sessionStorage.getItem(name) ?? '{}')
+      this.store.recall(await api.history())
     } catch {
       // nothing that can be read
     }
-    addEventListener('pagehide', () => {
-      try {
-        sessionStorage.setItem(name, this.store.history())
-      } catch {
-        // too long to keep
-      }
-    })
   }
 
   private async loadMesh(side: Side) {

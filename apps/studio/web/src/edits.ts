@@ -1,5 +1,5 @@
 // Changes of the document as functions from one document to the next.
-import type { Document, Marker, Side, Vec3 } from './types'
+import type { Document, Examined, ImportedMarker, Marker, Side, Vec3 } from './types'
 
 const withMarkers = (document: Document, markers: Marker[]): Document => ({ ...document, markers })
 
@@ -11,6 +11,13 @@ export const isComplete = (marker: Marker) => marker.source !== null && marker.t
 // Where the complete markers are: a fit is of these places, whatever they are called.
 export const placesOf = (document: Document) =>
   JSON.stringify(document.markers.filter(isComplete).map(({ source, target }) => [source, target]))
+
+// Another model on one side: its markers go where they lie on it, and those that lie nowhere become missing.
+export function withModel(document: Document, side: Side, { model, carried }: Pick<Examined, 'model' | 'carried'>): Document {
+  const places = new Map(carried.map(({ id, at }) => [id, at]))
+  const markers = document.markers.map((marker) => (marker[side] ? { ...marker, [side]: places.get(marker.id) ?? null } : marker))
+  return { ...document, models: { ...document.models, [side]: model }, markers }
+}
 
 export function newId(document: Document): string {
   let number = document.markers.length + 1
@@ -86,14 +93,15 @@ export function move(document: Document, id: string, by: number): Document {
   return withMarkers(document, markers)
 }
 
-// Pairs from a file: a marker of the same name is set to them, unless it is locked; the others are new.
-export function merge(document: Document, pairs: { name: string; source: Vec3; target: Vec3 }[]) {
+// Markers from a file: one of the same name is set to the places that the file has, unless it is locked; the others are
+// new.
+export function merge(document: Document, list: ImportedMarker[]) {
   let after = document
   const counts = { added: 0, moved: 0, locked: 0 }
-  for (const { name, source, target } of pairs) {
+  for (const { name, source, target } of list) {
     const known = document.markers.find((marker) => marker.name === name)
     if (known?.locked) ++counts.locked
-    else if (known) (after = update(after, known.id, { source, target })), ++counts.moved
+    else if (known) (after = update(after, known.id, { source: source ?? known.source, target: target ?? known.target })), ++counts.moved
     else (after = withMarkers(after, [...after.markers, { id: newId(after), name, source, target, locked: false }])), ++counts.added
   }
   return { after, ...counts }

@@ -77,13 +77,20 @@ export function listenToKeys() {
   window.addEventListener('keydown', (event: KeyboardEvent) => {
     const inField = event.target instanceof Element && event.target.closest('input:not([type=checkbox]):not([type=range]), select, textarea')
     const name = nameOf(event)
+    if (app.question) {
+      if (name === 'Escape') app.question.answer(null)
+      return
+    }
+    if (app.busy?.stop && name === 'Escape') return app.busy.stop()
     const step = /^Alt\+([1-5])$/.exec(name)
     if (step) {
       event.preventDefault()
       return app.set({ step: steps[Number(step[1]) - 1] })
     }
-    // Fields keep their keys, a focused button its Enter and Space; undo is the studio's, everywhere.
-    if (inField && !/^Ctrl\+(Shift\+)?[ZY]$/.test(name) && name !== 'Escape') return
+    // Fields keep their keys, undo among them; a list of choices has no undo of its own. A focused button keeps its
+    // Enter and Space.
+    const undoes = /^Ctrl\+(Shift\+)?[ZY]$/.test(name) && event.target instanceof HTMLSelectElement
+    if (inField && !undoes && name !== 'Escape') return
     const onControl = event.target instanceof Element && event.target.closest('button, summary, a, input')
     if (onControl && (name === 'Enter' || name === 'Space')) return
     const command = commands.find((one) => one.keys.includes(name))

@@ -102,6 +102,15 @@ export function change(marker: Marker, label: string, values: Partial<Marker>) {
   if (editable()) app.store.edit(label, (d) => update(d, marker.id, values))
 }
 
+// A name tells markers apart, in the table and in files: it is neither empty nor another's.
+export function rename(marker: Marker, text: string) {
+  const name = text.trim().replace(/\s+/g, ' ')
+  const other = app.store.document.markers.find((one) => one.id !== marker.id && one.name === name)
+  if (name === '') return app.toast(`A marker needs a name; this one is still “${marker.name}”.`, true)
+  if (other) return app.toast(`Another marker is called “${name}”; this one is still “${marker.name}”.`, true)
+  if (name !== marker.name) change(marker, `rename ${marker.name}`, { name })
+}
+
 export function reorder(marker: Marker, by: number) {
   if (editable()) app.store.edit(`reorder ${marker.name}`, (d) => move(d, marker.id, by))
 }
@@ -136,6 +145,24 @@ export function flyToMarker(id: string) {
 export function flyTo(side: Side, at: Vec3, distance: number) {
   const drawn = app.toDrawn(at, app.info(side)?.frame)
   app.pane(side).flyTo(drawn, distance, facing(side, drawn))
+}
+
+// The place of a vertex or a face that a sentence names by its number; nothing where there is none.
+export function placeNamed(side: Side, what: string, number: number): Vec3 | undefined {
+  const geometry = app.models[side]?.geometry
+  const frame = app.info(side)?.frame
+  const positions = geometry?.getAttribute('position')
+  if (!geometry?.index || !positions || !frame) return undefined
+  const at = new Vector3()
+  if (what === 'vertex') {
+    if (number >= positions.count) return undefined
+    at.fromBufferAttribute(positions, number)
+  } else {
+    if (3 * number + 2 >= geometry.index.count) return undefined
+    for (let k = 0; k < 3; ++k) at.add(new Vector3().fromBufferAttribute(positions, geometry.index.getX(3 * number + k)))
+    at.divideScalar(3)
+  }
+  return app.fromDrawn(at, frame)
 }
 
 // The surface's direction at a point: where to look at it from.

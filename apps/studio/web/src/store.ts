@@ -11,6 +11,7 @@ interface Edit {
 const longestHistory = 100 // edits that outlive a reload
 
 export const emptyDocument = (): Document => ({
+  models: { source: null, target: null },
   markers: [],
   symmetry: { on: false, axis: 0, source: 0, target: 0 },
   timing: { dabs: [] },
@@ -25,10 +26,39 @@ const inOrder = (value: unknown) =>
       : inner,
   )
 
+// Documents share most of their parts, so each part is written once and named by its number.
+type Packed = { markers: number[]; dabs: number[]; rest: number }
+
+class Packer {
+  documents: Packed[] = []
+  parts: unknown[] = []
+  private numbers = new Map<unknown, number>()
+
+  private part(value: unknown, key: unknown = value): number {
+    const known = this.numbers.get(key)
+    if (known !== undefined) return known
+    this.numbers.set(key, this.parts.length)
+    return this.parts.push(value) - 1
+  }
+
+  pack(document: Document): number {
+    const known = this.numbers.get(document)
+    if (known !== undefined) return known
+    const { markers, timing, ...rest } = document
+    const text = JSON.stringify(rest)
+    this.numbers.set(document, this.documents.length)
+    return this.documents.push({ markers: markers.map((marker) => this.part(marker)), dabs: timing.dabs.map((dab) => this.part(dab)), rest: this.part(rest, text) }) - 1
+  }
+}
+
+const unpack = (documents: Packed[], parts: any[]): Document[] =>
+  documents.map(({ markers, dabs, rest }) => ({ ...parts[rest], markers: markers.map((i) => parts[i]), timing: { dabs: dabs.map((i) => parts[i]) } }))
+
 export class Store {
   document = emptyDocument()
   private past: Edit[] = []
   private future: Edit[] = []
+  private last: 'edit' | 'undo' | 'redo' = 'edit'
   private listeners = new Set<(edited: boolean) => void>()
 
   // Calls back with whether a person changed the document; else it came from the program.
@@ -45,6 +75,7 @@ export class Store {
     if (key && last?.key === key && last.after === before) last.after = after
     else this.past.push({ label, before, after, key })
     this.future = []
+    this.last = 'edit'
     this.show(after)
   }
 
@@ -58,6 +89,7 @@ export class Store {
     const edit = this.past.pop()
     if (!edit) return undefined
     this.future.push(edit)
+    this.last = 'undo'
     this.show(edit.before)
     return edit.label
   }
@@ -66,8 +98,17 @@ export class Store {
     const edit = this.future.pop()
     if (!edit) return undefined
     this.past.push(edit)
+    this.last = 'redo'
     this.show(edit.after)
     return edit.label
+  }
+
+  // Takes back the last edit, undo or redo as if it had not been made.
+  takeBack() {
+    if (this.last === 'undo') return void this.redo()
+    if (this.last === 'redo') return void this.undo()
+    const edit = this.past.pop()
+    if (edit) this.show(edit.before)
   }
 
   get undoLabel() {
@@ -86,16 +127,25 @@ export class Store {
 
   // What can be undone and done again, for whoever goes on with this document.
   history(): string {
-    const sealed = (edits: Edit[]) => edits.slice(-longestHistory).map((edit) => ({ ...edit, key: undefined }))
-    return JSON.stringify({ of: this.document, past: sealed(this.past), future: sealed(this.future) })
+    const packer = new Packer()
+    const pack = (edits: Edit[]) =>
+      edits.slice(-longestHistory).map(({ label, before, after }) => ({ label, before: packer.pack(before), after: packer.pack(after) }))
+    const of = packer.pack(this.document)
+    return JSON.stringify({ of, past: pack(this.past), future: pack(this.future), documents: packer.documents, parts: packer.parts })
   }
 
-  // Takes up a history where it is of this very document.
+  // Takes up a history. Where its last word is not this document, it was written a moment earlier: one more edit.
   recall(history: string) {
-    const { of, past, future } = JSON.parse(history)
-    if (inOrder(of) !== inOrder(this.document)) return
-    this.past = past
-    this.future = future
+    const told = JSON.parse(history)
+    if (!told?.documents) return
+    const documents = unpack(told.documents, told.parts)
+    const edits = (list: { label: string; before: number; after: number }[]): Edit[] =>
+      list.map(({ label, before, after }) => ({ label, before: documents[before], after: documents[after] }))
+    this.past = edits(told.past)
+    this.future = edits(told.future)
+    if (inOrder(documents[told.of]) === inOrder(this.document)) return
+    this.past.push({ label: 'the last change', before: documents[told.of], after: this.document })
+    this.future = []
   }
 
   private show(document: Document, edited = true) {

@@ -30,8 +30,15 @@ export interface Dab {
 
 export type Options = Record<string, number | string>
 
+// A model's file: where it lies, in the project's folder or elsewhere, and the hash of its bytes.
+export interface ModelRef {
+  path: string
+  hash: string
+}
+
 // All that a person makes, and all that undo brings back.
 export interface Document {
+  models: Record<Side, ModelRef | null>
   markers: Marker[]
   symmetry: Symmetry
   timing: { dabs: Dab[] } // of several dabs on a place the last one counts
@@ -53,6 +60,37 @@ export interface MeshInfo {
   colors: boolean
   uvs: boolean
   findings: { warning: boolean; what: string }[]
+  notes: string[] // what was passed over or decided while the file was read
+}
+
+// A model that might become one side of the project, and where the side's markers lie on it.
+export interface Examined extends MeshInfo {
+  model: ModelRef
+  carried: { id: string; at: Vec3 | null }[]
+}
+
+export interface ImportedMarker {
+  name: string
+  source: Vec3 | null
+  target: Vec3 | null
+}
+
+export interface ProjectInfo {
+  id: string
+  source: string
+  target: string
+  markers: number
+  complete: number
+  fitted: boolean
+  saved: number // milliseconds since 1970
+  picture: boolean
+  open: boolean
+}
+
+export interface KeptState {
+  name: string
+  saved: number
+  markers: number
 }
 
 export interface Stats {
@@ -120,8 +158,8 @@ export interface Job {
 }
 
 export interface State {
-  project: { file: string; folder: string }
-  document: { markers: Marker[]; symmetry: Partial<Symmetry>; timing: { dabs?: Dab[] }; options: { fit?: Options; morph?: Options } }
+  project: { number: number; id: string; file: string; folder: string }
+  document: { models: Record<Side, ModelRef | null>; markers: Marker[]; symmetry: Partial<Symmetry>; timing: { dabs?: Dab[] }; options: { fit?: Options; morph?: Options } }
   meshes: Record<Side, MeshInfo | null>
   fit: FitSummary | null
   fit_is_of_these_markers: boolean
@@ -131,5 +169,6 @@ export interface State {
   schema: { fit: OptionRow[]; morph: OptionRow[] }
   samples: { name: string; description: string }[]
   mesh_formats: string[]
+  most_upload: number // bytes
   notes: string[]
 }

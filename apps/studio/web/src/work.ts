@@ -3,6 +3,7 @@ import { api, bytes, download } from './api'
 import { app, type Heat } from './app'
 import { placesOf } from './edits'
 import * as painting from './painting'
+import { keepPicture } from './pictures'
 import { heatColors, most } from './scene/heat'
 import type { Model } from './scene/model'
 import type { Job, PathInfo, Vec3 } from './types'
@@ -259,5 +260,12 @@ export function wire() {
   app.stage.animate = animate
   app.jobDone = (job) => void app.attempt(() => done(job))
   app.live = () => void showLive()
-  app.modelsChanged = refreshLook
+  app.modelsChanged = () => {
+    refreshLook()
+    keepPicture()
+  }
+  app.projectChanged = () => {
+    dropPaths()
+    Object.assign(exports, { files: [], folder: '' })
+  }
 }

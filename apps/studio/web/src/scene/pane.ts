@@ -66,6 +66,19 @@ export class Pane {
     this.pins.setViewport(width, height)
   }
 
+  // Draws the model alone, from where views begin, so that it fills the picture.
+  portrait(aspect: number, draw: () => void) {
+    const shown = [this.pins.mesh.visible, this.glass.group.visible]
+    this.pins.mesh.visible = this.glass.group.visible = false
+    this.model!.geometry.computeBoundingBox()
+    const size = this.model!.geometry.boundingBox!.getSize(new Vector3())
+    const half = Math.tan((this.camera.fov * Math.PI) / 360)
+    const distance = Math.max(size.y, Math.max(size.x, size.z) / aspect) / (2 * half) + Math.max(size.x, size.z) / 3
+    apply({ ...startPose(), distance: 1.04 * distance }, this.camera, aspect)
+    draw()
+    ;[this.pins.mesh.visible, this.glass.group.visible] = shown
+  }
+
   // What lies under a place of the view, in pixels from its upper left corner; by default under its middle.
   hit(x?: number, y?: number): Hit | null {
     const tree = this.model?.pickingTree

@@ -59,6 +59,28 @@ export class Stage {
     })
   }
 
+  // A picture of the models in these panes, side by side and from where views begin, on a clear ground.
+  picture(names: string[], width: number, height: number): Promise<Blob | null> {
+    const panes = names.map((name) => this.panes.get(name)!).filter((pane) => pane.model)
+    const canvas = document.createElement('canvas')
+    Object.assign(canvas, { width, height })
+    const context = canvas.getContext('2d')
+    const ratio = this.renderer.getPixelRatio()
+    if (!context || panes.length === 0 || this.renderer.domElement.width < width || this.renderer.domElement.height < height) return Promise.resolve(null)
+    const part = width / panes.length
+    this.renderer.setScissor(0, 0, this.renderer.domElement.width, this.renderer.domElement.height)
+    this.renderer.clear()
+    panes.forEach((pane, i) => {
+      const box = [(i * part) / ratio, 0, part / ratio, height / ratio] as const
+      this.renderer.setViewport(...box)
+      this.renderer.setScissor(...box)
+      pane.portrait(part / height, () => this.renderer.render(pane.scene, pane.camera))
+    })
+    context.drawImage(this.renderer.domElement, 0, this.renderer.domElement.height - height, width, height, 0, 0, width, height)
+    this.render()
+    return new Promise((resolve) => canvas.toBlob(resolve, 'image/png'))
+  }
+
   private turned(pane: Pane) {
     if (!this.linked) return
     for (const other of this.panes.values()) if (other !== pane) other.pose = copyPose(pane.pose)

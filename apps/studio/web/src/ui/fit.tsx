@@ -1,11 +1,13 @@
 // The fit: options, progress, and what there is to see of its result.
+import { useEffect, useState } from 'preact/hooks'
 import { api } from '../api'
 import { app } from '../app'
 import { heatGradient } from '../scene/heat'
 import { chooseHeat, flyInResult, startFit } from '../work'
-import { isComplete } from '../edits'
+import { isComplete, placesOf } from '../edits'
 import type { FitSummary, Vec3 } from '../types'
 import { Button, Choice, figure, JobBar, OptionForm, Section } from './parts'
+import { Linked } from './told'
 
 const Figure = ({ name, value, title, bad }: { name: string; value: string; title: string; bad?: boolean }) => (
   <div class={`figure${bad ? ' warn' : ''}`} title={title}>
@@ -89,10 +91,30 @@ function Outcome({ fit }: { fit: FitSummary }) {
       )}
       {fit.notes?.map((note) => (
         <small class="warn" key={note}>
-          {note}
+          <Linked text={note} />
         </small>
       ))}
     </Section>
+  )
+}
+
+// Markers that lie off their model, in the words that import has for them.
+function Warnings() {
+  const [warnings, setWarnings] = useState<string[]>([])
+  const places = `${placesOf(app.store.document)} ${app.info('source')?.hash} ${app.info('target')?.hash}`
+  useEffect(() => {
+    let mine = true
+    void app.saver.flush().then(api.warnings).then((told) => mine && setWarnings(told), () => {})
+    return () => void (mine = false)
+  }, [places])
+  return (
+    <>
+      {warnings.map((warning) => (
+        <small class="warn" role="status" key={warning}>
+          <Linked text={warning} />
+        </small>
+      ))}
+    </>
   )
 }
 
@@ -118,6 +140,7 @@ export function FitPanel() {
           </Button>
         )}
         {complete < 3 && <small class="warn">With fewer than three markers on both models, turn and size are a guess; 30 to 50 serve well.</small>}
+        <Warnings />
         <details>
           <summary>Options</summary>
           <OptionForm of="fit" rows={app.state?.schema.fit ?? []} />

@@ -5,10 +5,8 @@ import { find, isComplete } from '../edits'
 import * as placing from '../placing'
 import type { Marker } from '../types'
 import { Button, chooseFiles, Field, figure, Section } from './parts'
-import { importMarkers } from './open'
-import { download } from '../api'
-
-export const markerFormats = ['csv', 'pp', 'fcsv', 'mrk.json', 'json']
+import { exportMarkers, importMarkers, markerFormats } from './import'
+import { markerEndings } from '../files'
 
 function Status({ marker }: { marker: Marker }) {
   if (isComplete(marker)) return <span class="status both" title="set on both models">both</span>
@@ -33,7 +31,7 @@ function Row({ marker, number }: { marker: Marker; number: number }) {
           maxLength={60}
           disabled={app.readOnly}
           onFocus={() => app.selected !== marker.id && placing.select(marker.id)}
-          commit={(name) => placing.change(marker, `rename ${marker.name}`, { name })}
+          commit={(name) => placing.rename(marker, name)}
         />
       </td>
       <td>
@@ -156,23 +154,23 @@ export function MarkersPanel() {
       <Symmetry />
       <Section title="Files">
         <div class="row">
-          <Button small disabled={!ready || app.readOnly} title="One file for both sides, or the source's and the target's" onClick={() => chooseFiles('.csv,.pp,.fcsv,.json,.txt', true, (files) => void importMarkers(files))}>
+          <Button small disabled={!ready || app.readOnly} title="One file for both sides, one a side, or one side alone" onClick={() => chooseFiles(markerEndings.join(','), true, (files) => void importMarkers(files))}>
             Import…
           </Button>
           <select
             aria-label="Export markers as"
             value=""
-            disabled={complete === 0}
+            disabled={markers.length === 0}
             onChange={(e) => {
               const format = e.currentTarget.value
               e.currentTarget.value = ''
-              void app.saver.flush().then(() => download(`api/markers/export?format=${format}`, `markers.${format}`))
+              if (format) void exportMarkers(format)
             }}
           >
             <option value="">Export…</option>
-            {markerFormats.map((format) => (
+            {markerFormats.map(([format, name]) => (
               <option value={format} key={format}>
-                .{format}
+                {name}
               </option>
             ))}
           </select>

@@ -2,14 +2,19 @@
 import { api } from '../api'
 import { app, type Step } from '../app'
 import { commands } from '../keys'
+import type { Side } from '../types'
 import { redo, undo } from '../placing'
 import { refreshLook, showFitted } from '../work'
 import { ExportPanel } from './export'
 import { FitPanel } from './fit'
 import { MarkersPanel } from './markers'
 import { MorphPanel } from './morph'
-import { dropped, OpenPanel } from './open'
+import { dropped } from '../files'
+import { readAgain } from '../projects'
+import { Dialog, keepFocus } from './dialog'
+import { OpenPanel, take } from './open'
 import { Button, useApp } from './parts'
+import { ToldNotes } from './told'
 import { Views } from './views'
 
 const steps: [Step, string, () => preact.JSX.Element][] = [
@@ -75,7 +80,7 @@ function Help() {
   const groups = [...new Set(commands.map((command) => command.group))]
   return (
     <div class="sheet" onClick={() => app.set({ helpOpen: false })}>
-      <div role="dialog" aria-modal="true" aria-label="Help" class="dialog" onClick={(e) => e.stopPropagation()}>
+      <div role="dialog" aria-modal="true" aria-label="Help" class="dialog" onClick={(e) => e.stopPropagation()} onKeyDown={keepFocus}>
         <header>
           <h2>Keys and mouse</h2>
           <button type="button" class="small" ref={(button) => button?.focus()} onClick={() => app.set({ helpOpen: false })}>
@@ -136,11 +141,28 @@ function Banners() {
           app.outside[side] && (
             <p role="alert" key={side}>
               {app.info(side)?.name} has changed on disk.
-              <Button small disabled={app.readOnly} onClick={() => void app.attempt(() => api.reload(side).then(() => app.refresh(false)))}>
+              <Button small disabled={app.readOnly || app.running} onClick={() => void readAgain(side)}>
                 Read it again
               </Button>
             </p>
           ),
+      )}
+    </div>
+  )
+}
+
+// What the page waits for, how far it is, and how to stop it.
+function BusyBox() {
+  const { busy } = app
+  if (!busy) return null
+  return (
+    <div class="busy" role="status">
+      <span>{busy.text}…</span>
+      {busy.stop && <progress max={1} value={busy.part} aria-label={busy.text} />}
+      {busy.stop && (
+        <Button small onClick={busy.stop} label="stop">
+          Cancel
+        </Button>
       )}
     </div>
   )
@@ -155,13 +177,15 @@ export function Page() {
       onDragOver={(e) => e.preventDefault()}
       onDrop={(e) => {
         e.preventDefault()
-        void dropped([...(e.dataTransfer?.files ?? [])])
+        const card = e.target instanceof Element ? e.target.closest<HTMLElement>('[data-side]') : null
+        void take(dropped(e), card?.dataset.side as Side | undefined)
       }}
     >
       <Bar />
       <Banners />
       <Views />
       <aside class="panel" aria-label={steps.find(([step]) => step === app.step)![1]}>
+        <ToldNotes />
         <Panel />
       </aside>
       <div class="toasts" role="status" aria-live="polite">
@@ -171,11 +195,8 @@ export function Page() {
           </p>
         ))}
       </div>
-      {app.busy && (
-        <div class="busy" role="status">
-          {app.busy}…
-        </div>
-      )}
+      <BusyBox />
+      <Dialog />
       <Help />
     </div>
   )

@@ -131,11 +131,20 @@ export function OptionForm({ of, rows }: { of: 'fit' | 'morph'; rows: OptionRow[
 
 export function JobBar({ kind }: { kind: string }) {
   const { job } = app
+  const [, tick] = useReducer((count: number) => count + 1, 0)
+  useEffect(() => {
+    const timer = setInterval(() => tick(undefined as never), 1000)
+    return () => clearInterval(timer)
+  }, [])
   if (!app.running || job.kind !== kind) return null
+  const seconds = Math.floor((performance.now() - app.jobBegan) / 1000)
   return (
     <div class="job" role="status">
       <progress max={1} value={job.fraction ?? 0} aria-label={job.stage} />
-      <span>{job.stage}</span>
+      <span>
+        {job.stage}
+        {seconds >= 3 && <small> · {seconds} s</small>}
+      </span>
       <b>{Math.round(100 * (job.fraction ?? 0))} %</b>
     </div>
   )
@@ -148,6 +157,10 @@ export function figure(value: number): string {
   const digits = Math.max(0, 2 - Math.floor(Math.log10(Math.abs(value))))
   return value.toFixed(Math.min(5, digits))
 }
+
+// Bytes, as people write them.
+export const size = (bytes: number) =>
+  bytes >= 1 << 30 ? `${figure(bytes / (1 << 30))} GB` : bytes >= 1 << 20 ? `${figure(bytes / (1 << 20))} MB` : `${Math.ceil(bytes / 1024)} kB`
 
 export const count = (value: number) => value.toLocaleString('en-GB').replace(/,/g, ' ')
 

@@ -3,7 +3,8 @@ import { useEffect, useRef } from 'preact/hooks'
 import { app, type PaneName } from '../app'
 import { showPins } from '../pins'
 import { paths, refreshLook } from '../work'
-import { dropped } from './open'
+import { dropped } from '../files'
+import { take } from './open'
 import { HeatLegend } from './fit'
 import { Timeline } from './morph'
 import { Button, Choice } from './parts'
@@ -39,7 +40,7 @@ function View({ name }: { name: PaneName }) {
       onDrop={(e) => {
         e.preventDefault()
         e.stopPropagation()
-        void dropped([...(e.dataTransfer?.files ?? [])], side)
+        void take(dropped(e), side)
       }}
     >
       <header>

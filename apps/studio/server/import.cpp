@@ -1,0 +1,170 @@
+#include "import.h"
+
+#include "meshtween/core/error.h"
+#include "meshtween/io/marker_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meshtween::studio {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr double near_enough = 0.05; // of the diagonal, as the library's own warning
+
+bool lies_on(const OpenMesh& mesh, const Point& point) {
+    return point.allFinite() && std::sqrt(mesh.index.closest(point).squared_distance) <= near_enough * mesh.frame.scale;
+}
+
+// The part of the points that lie on a model; 0 where there are none.
+double part_on(const OpenMesh& mesh, const std::vector<Point>& points) {
+    const auto count = std::count_if(points.begin(), points.end(), [&](const Point& p) { return lies_on(mesh, p); });
+    return points.empty() ? 0 : double(count) / double(points.size());
+}
+
+std::vector<Point> places_of(const std::vector<Landmark>& landmarks) {
+    std::vector<Point> points;
+    for (const Landmark& landmark : landmarks)
+        if (landmark.position) points.push_back(*landmark.position);
+    return points;
+}
+
+double part_on(const OpenMesh& source, const OpenMesh& target, const MarkerPairs& read) {
+    std::vector<Point> from, to;
+    for (const MarkerPair& pair : read.pairs) from.push_back(pair.source), to.push_back(pair.target);
+    return std::min(part_on(source, from), part_on(target, to));
+}
+
+// The library leaves out what is not on both sides; here it waits for its other side.
+std::vector<std::string> notes_of(const MarkerPairs& read) {
+    std::vector<std::string> notes = read.notes;
+    for (std::string& note : notes)
+        if (const std::size_t at = note.find(" and are left out: "); at != std::string::npos)
+            note.replace(at, 19, " and wait for it: ");
+    return notes;
+}
+
+void take_pairs(const MarkerPairs& read, ImportedMarkers& result) {
+    for (const MarkerPair& pair : read.pairs) result.markers.push_back({pair.name, pair.source, pair.target});
+    for (std::string& note : notes_of(read)) result.notes.push_back(std::move(note));
+}
+
+std::optional<Point> place_of(const MarkerPlace& place, const Mesh& mesh) {
+    if (const auto* point = std::get_if<Point>(&place)) return *point;
+    if (const auto* vertex = std::get_if<long long>(&place)) return Point(mesh.positions.row(Eigen::Index(*vertex)));
+    if (const auto* on_surface = std::get_if<SurfacePoint>(&place))
+        return position(mesh.positions, mesh.triangles, *on_surface);
+    return std::nullopt;
+}
+
+// Rows of a file of pairs that have one side. The library has read the file before: indices are in range.
+void take_halves(const MarkerFile& file, const Mesh& source, const Mesh& target, ImportedMarkers& result) {
+    for (std::size_t i = 0; i < file.rows.size(); ++i) {
+        const MarkerRow& row = file.rows[i];
+        PartialPair pair{row.name.empty() ? std::to_string(i + 1) : row.name, place_of(row.places[0], source),
+                         place_of(row.places[1], target)};
+        if (pair.source.has_value() != pair.target.has_value()) result.markers.push_back(std::move(pair));
+    }
+}
+
+// Points of one file that are in no pair.
+void take_rest(const std::vector<Landmark>& landmarks, Side side, const MarkerPairs& read, ImportedMarkers& result) {
+    for (const Landmark& landmark : landmarks) {
+        if (!landmark.position) continue;
+        const bool paired = std::any_of(read.pairs.begin(), read.pairs.end(), [&](const MarkerPair& pair) {
+            return (side == Side::source ? pair.source : pair.target) == *landmark.position;
+        });
+        const bool known = std::any_of(result.markers.begin(), result.markers.end(),
+                                       [&](const PartialPair& one) { return one.name == landmark.name; });
+        if (paired || known) continue;
+        PartialPair pair{landmark.name, {}, {}};
+        (side == Side::source ? pair.source : pair.target) = landmark.position;
+        result.markers.push_back(std::move(pair));
+    }
+}
+
+// The side whose model the points lie on, where that is the one only.
+std::optional<Side> side_by_place(const std::vector<Point>& points, const OpenMesh& source, const OpenMesh& target) {
+    const double on_source = part_on(source, points), on_target = part_on(target, points);
+    if (on_source >= 0.9 && on_target < 0.5) return Side::source;
+    if (on_target >= 0.9 && on_source < 0.5) return Side::target;
+    return std::nullopt;
+}
+
+// A list of one side. Files of indices fit whichever mesh they are read on, and are asked about.
+ImportedMarkers one_side(const fs::path& file, const MarkerFile& raw, std::optional<Side> side, const OpenMesh& source,
+                         const OpenMesh& target) {
+    ImportedMarkers result;
+    const bool of_points = std::any_of(raw.rows.begin(), raw.rows.end(), [](const MarkerRow& row) {
+        return std::holds_alternative<Point>(row.places[0]);
+    });
+    const bool given = side.has_value();
+    if (!given && of_points) side = side_by_place(places_of(read_landmarks(file, source.mesh).points), source, target);
+    if (!side) {
+        result.ask_side = true;
+        return result;
+    }
+    const Landmarks read = read_landmarks(file, (*side == Side::source ? source : target).mesh);
+    result.notes = read.notes;
+    take_rest(read.points, *side, {}, result);
+    if (!given)
+        result.notes.push_back(fmt::format("{} holds one side only; its points lie on the {}, and become that side of "
+                                           "the markers",
+                                           file.filename().string(), name_of(*side)));
+    return result;
+}
+
+struct TwoFiles {
+    MarkerPairs read;
+    double on_models = -1; // the part that lies where it should; -1 where they cannot be read in this order
+    std::optional<Error> problem;
+};
+
+TwoFiles read_two(const fs::path& a, const fs::path& b, const OpenMesh& source, const OpenMesh& target) {
+    TwoFiles two;
+    try {
+        two.read = read_marker_pairs(a, b, source.mesh, target.mesh);
+        two.on_models = part_on(source, target, two.read);
+    } catch (const Error& error) {
+        two.problem = error;
+    }
+    return two;
+}
+
+ImportedMarkers file_a_side(fs::path a, fs::path b, const OpenMesh& source, const OpenMesh& target) {
+    ImportedMarkers result;
+    TwoFiles two = read_two(a, b, source, target);
+    if (two.on_models < 0.5) {
+        TwoFiles swapped = read_two(b, a, source, target);
+        if (swapped.on_models >= 0.9) {
+            two = std::move(swapped);
+            std::swap(a, b);
+            result.notes.push_back(
+                fmt::format("the two files came the other way round: {} lies on the source, {} on the "
+                            "target",
+                            a.filename().string(), b.filename().string()));
+        }
+    }
+    if (two.problem) throw *two.problem;
+    take_pairs(two.read, result);
+    take_rest(read_landmarks(a, source.mesh).points, Side::source, two.read, result);
+    take_rest(read_landmarks(b, target.mesh).points, Side::target, two.read, result);
+    return result;
+}
+
+} // namespace
+
+ImportedMarkers import_markers(const fs::path& file, const fs::path& second, std::optional<Side> side,
+                               const OpenMesh& source, const OpenMesh& target) {
+    if (!second.empty()) return file_a_side(file, second, source, target);
+    const MarkerFile raw = read_marker_file(file);
+    if (raw.sides == 1) return one_side(file, raw, side, source, target);
+    ImportedMarkers result;
+    take_pairs(read_marker_pairs(file, source.mesh, target.mesh), result);
+    take_halves(raw, source.mesh, target.mesh, result);
+    return result;
+}
+
+} // namespace meshtween::studio
