@@ -1,6 +1,7 @@
 #include "path_inputs.h"
 
 #include "meshtween/core/error.h"
+#include "meshtween/fit/faded_look.h"
 #include "meshtween/morph/path_quality.h"
 
 #include <fmt/format.h>
@@ -136,6 +137,12 @@ void write_one_shape(const PathWork& work, const PathFlags& flags, const KeyOpti
         shape.positions = path.curve.at(u);
         solve = path.report;
     }
+    if (work.other) {
+        if (u > 0 && u < 1 && (shows_materials(shape) || shows_materials(*work.other)))
+            console.warn(fmt::format("a picture cannot fade in one file: at u = {:.3g} it is the {} look", u,
+                                     u < 0.5 ? "first" : "second"));
+        shape = faded_look(shape, *work.other, u);
+    }
     tell_solve(solve, console, row);
     row["shapes"] = Json::array({{{"u", u}, {"shape", describe(shape)}}});
     written = write_still(shape, fmt::format("u = {:.3g}", u), work.before, work.outputs, progress, flags.writing);
@@ -163,6 +170,7 @@ void write_whole_path(const PathWork& work, const PathFlags& flags, const KeyOpt
     if (work.measured) row["shapes"] = to_json(playable.quality, work.mesh.triangles, at);
     playable.mesh = work.mesh;
     playable.mesh.positions = playable.path.nodes.front();
+    playable.other = work.other;
     playable.frames = flags.frames;
     playable.order = frame_order(flags);
     playable.before = work.before;

@@ -34,8 +34,9 @@ struct PathWork {
     std::vector<meshtween::Output> outputs;
     std::vector<meshtween::Tile> before; // on a contact sheet
     std::string title;
-    bool measured = false;    // a report is wanted: measure the path frame by frame
-    bool ends_before = false; // the tiles before show both ends
+    bool measured = false;                             // a report is wanted: measure the path frame by frame
+    bool ends_before = false;                          // the tiles before show both ends
+    std::shared_ptr<const meshtween::Mesh> other = {}; // the mesh with another look, to which its own fades; or none
 };
 
 // Writes the path, or one shape of it with --at, and adds to the report.

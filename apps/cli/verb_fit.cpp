@@ -1,4 +1,5 @@
 #include "fit_run.h"
+#include "look_run.h"
 
 #include <memory>
 
@@ -10,6 +11,7 @@ struct Arguments {
     std::vector<std::string> markers, outputs;
     WriteOptions writing;
     FitFlags fit;
+    LookFlags look;
 };
 } // namespace
 
@@ -31,6 +33,7 @@ void add_fit(CLI::App& app, const Common& common) {
     add_fit_flags(*verb, a->fit);
     add_fit_files(*verb, a->fit);
     add_write_flags(*verb, a->writing);
+    add_appearance_flag(*verb, a->look, {"source", "target"});
     verb->callback([a, &common] {
         const auto start = std::chrono::steady_clock::now();
         Console console(common.quiet);
@@ -40,13 +43,17 @@ void add_fit(CLI::App& app, const Common& common) {
         check_fit_files(a->fit);
         const Mesh source = load_mesh(a->source, console, report["source"]),
                    target = load_mesh(a->target, console, report["target"]);
+        const bool dressed = a->look.appearance == "target";
+        if (dressed) require_look(target, a->target);
         const MarkerPairs markers = load_markers(a->markers, source, target, console);
         const Progress progress = console.progress();
-        const Fitted fitted =
-            run_fit(source, target, markers, a->fit, common.seed, part_of(progress, 0, 0.95), console);
+        const Fitted fitted = run_fit(source, target, markers, a->fit, common.seed, part_of(progress, 0, 0.8), console);
         report["fit"] = fitted.report;
+        const Mesh result = dressed ? run_look(fitted.mesh, target, {a->source, a->target, a->outputs.front()}, a->look,
+                                               part_of(progress, 0.8, 0.95), console, report["look"])
+                                    : fitted.mesh;
         const Written written =
-            write_still(fitted.mesh, "source's mesh on the target", {{"source", source, {}}, {"target", target, {}}},
+            write_still(result, "source's mesh on the target", {{"source", source, {}}, {"target", target, {}}},
                         outputs, part_of(progress, 0.95, 1), a->writing);
         stop_if_interrupted();
         tell_written(written, console, report);

@@ -1,4 +1,5 @@
 #include "fit_run.h"
+#include "look_run.h"
 #include "path_inputs.h"
 
 #include <memory>
@@ -12,6 +13,7 @@ struct Arguments {
     std::vector<std::string> markers, markers_a, markers_b, outputs;
     FitFlags fit;
     PathFlags path;
+    LookFlags look;
     std::string report;
 };
 
@@ -24,6 +26,23 @@ Points side(const MarkerPairs& markers, bool source) {
     return points;
 }
 
+bool shows_source(const LookFlags& look) {
+    return look.appearance == "source" || look.appearance == "both";
+}
+
+bool shows_target(const LookFlags& look) {
+    return look.appearance == "target" || look.appearance == "both";
+}
+
+// The path's mesh with the target's look, or fading to it. `dressed` is the mesh on the target with the target's look.
+void show_target(PathWork& work, Mesh dressed, const LookFlags& look) {
+    dressed.positions = work.mesh.positions;
+    if (look.appearance == "both")
+        work.other = std::make_shared<const Mesh>(std::move(dressed));
+    else
+        work.mesh = std::move(dressed);
+}
+
 // Source to target: one fit.
 void morph_two(const Arguments& a, std::uint32_t seed, Console& console, Json& report) {
     const auto outputs = load_outputs(a.outputs);
@@ -31,21 +50,30 @@ void morph_two(const Arguments& a, std::uint32_t seed, Console& console, Json& r
     check_fit_files(a.fit);
     const Mesh source = load_mesh(a.source, console, report["source"]),
                target = load_mesh(a.target, console, report["target"]);
+    if (shows_target(a.look)) require_look(target, a.target);
     const MarkerPairs markers = load_markers(a.markers, source, target, console);
     const Progress progress = console.progress();
-    const Fitted fitted = run_fit(source, target, markers, a.fit, seed, part_of(progress, 0, 0.6), console);
+    const Fitted fitted = run_fit(source, target, markers, a.fit, seed, part_of(progress, 0, 0.55), console);
     report["fit"] = fitted.report;
     const std::vector<Tile> tiles{{"source", source, side(markers, true)},
                                   {"target", target, side(markers, false)},
                                   {"source's mesh on the target", fitted.mesh, {}}};
-    write_path({fitted.source,
-                {fitted.source.positions, fitted.mesh.positions},
-                outputs,
-                tiles,
-                title_of({a.source, a.target}),
-                !a.report.empty(),
-                true},
-               a.path, part_of(progress, 0.6, 1), console, report);
+    PathWork work{fitted.source,
+                  {fitted.source.positions, fitted.mesh.positions},
+                  outputs,
+                  tiles,
+                  title_of({a.source, a.target}),
+                  !a.report.empty(),
+                  true};
+    if (shows_target(a.look)) {
+        const Progress part = part_of(progress, 0.55, 0.6);
+        show_target(work,
+                    run_look(fitted.mesh, target, {a.source, a.target, a.outputs.front()}, a.look, part, console,
+                             report["look"]),
+                    a.look);
+        work.ends_before = false; // they would not show it
+    }
+    write_path(work, a.path, part_of(progress, 0.6, 1), console, report);
     write_fit_files(fitted, a.fit, a.path.writing, console, report);
 }
 
@@ -56,6 +84,8 @@ void morph_through_template(const Arguments& a, std::uint32_t seed, Console& con
     const Mesh common = load_mesh(a.template_mesh, console, report["template"]),
                first = load_mesh(a.source, console, report["source"]),
                second = load_mesh(a.target, console, report["target"]);
+    if (shows_source(a.look)) require_look(first, a.source);
+    if (shows_target(a.look)) require_look(second, a.target);
     const MarkerPairs to_first = load_markers(a.markers_a, common, first, console);
     const MarkerPairs to_second = load_markers(a.markers_b, common, second, console);
     const Progress progress = console.progress();
@@ -65,13 +95,19 @@ void morph_through_template(const Arguments& a, std::uint32_t seed, Console& con
     const std::vector<Tile> tiles{{"template", common, side(to_first, true)},
                                   {"source", first, side(to_first, false)},
                                   {"target", second, side(to_second, false)}};
-    write_path({from.mesh,
-                {from.mesh.positions, to.mesh.positions},
-                outputs,
-                tiles,
-                title_of({a.source, a.target}),
-                !a.report.empty()},
-               a.path, part_of(progress, 0.7, 1), console, report);
+    PathWork work{from.mesh, {from.mesh.positions, to.mesh.positions}, outputs,
+                  tiles,     title_of({a.source, a.target}),           !a.report.empty()};
+    const LookNames names{a.template_mesh, a.source, a.outputs.front()},
+        other_names{a.template_mesh, a.target, a.outputs.front()};
+    if (shows_source(a.look))
+        work.mesh =
+            run_look(from.mesh, first, names, a.look, part_of(progress, 0.7, 0.75), console, report["look_source"]);
+    if (shows_target(a.look))
+        show_target(work,
+                    run_look(to.mesh, second, other_names, a.look, part_of(progress, 0.75, 0.8), console,
+                             report["look_target"]),
+                    a.look);
+    write_path(work, a.path, part_of(progress, 0.8, 1), console, report);
 }
 
 } // namespace
@@ -103,6 +139,7 @@ void add_morph(CLI::App& app, const Common& common) {
     for (const char* of_one_fit : {"--map", "--weights", "--refine"})
         with_template->excludes(verb->get_option(of_one_fit));
     add_path_flags(*verb, a->path);
+    add_appearance_flag(*verb, a->look, {"source", "target", "both"});
     verb->callback([a, &common] {
         const auto start = std::chrono::steady_clock::now();
         Console console(common.quiet);

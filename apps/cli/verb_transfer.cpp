@@ -1,4 +1,5 @@
 #include "inputs.h"
+#include "look_run.h"
 
 #include "meshtween/core/error.h"
 #include "meshtween/fit/correspondence.h"
@@ -20,6 +21,7 @@ struct Arguments {
     std::string fitted, target, to = "template", template_mesh;
     std::vector<std::string> outputs;
     WriteOptions writing;
+    LookFlags look;
     std::string values, values_out, points, points_out;
 };
 
@@ -45,6 +47,7 @@ Sides load_sides(const Arguments& a, Console& console) {
     if (fitted.fitted.texcoords.rows() == 0) {
         fitted.fitted.texcoords = fitted.rest.texcoords;
         fitted.fitted.texcoord_triangles = fitted.rest.texcoord_triangles;
+        fitted.fitted.file = fitted.rest.file;
     }
     if (a.to == "template") return {std::move(target), std::move(fitted), a.target, a.fitted};
     return {std::move(fitted), std::move(target), a.fitted, a.target};
@@ -92,16 +95,27 @@ void transfer_points(const Arguments& a, const Sides& sides, Console& console) {
     console.note("wrote " + a.points_out);
 }
 
-void transfer_mesh(const std::vector<Output>& outputs, const WriteOptions& writing, const Sides& sides,
-                   const std::vector<SurfacePoint>& places, Console& console) {
-    const Mesh& giver = sides.giver.fitted;
-    if (giver.colors.rows() == 0 && giver.texcoords.rows() == 0)
+// Colours and pictures go by carried_look. Texture coordinates go too where the receiver's own are of no use for that.
+void transfer_mesh(const Arguments& a, const std::vector<Output>& outputs, const Sides& sides,
+                   const std::vector<SurfacePoint>& places, const Progress& progress, Console& console) {
+    const Mesh &giver = sides.giver.fitted, &receiver = sides.receiver.fitted;
+    const bool looks = has_look(giver);
+    if (!looks && giver.texcoords.rows() == 0)
         throw Error(ErrorKind::file,
                     fmt::format("{} has neither colours nor texture coordinates to carry; leave -o out, or use --to",
                                 sides.giver_file));
-    Mesh result = with_attributes(sides.receiver.fitted, giver, places);
+    Mesh result = receiver;
+    Json described; // of no report
+    if (looks)
+        result = run_look(receiver, giver, {sides.receiver_file, sides.giver_file, a.outputs.front()}, a.look, progress,
+                          console, described);
+    if (result.file == receiver.file || result.file->images.empty()) {
+        Mesh carried = with_attributes(receiver, giver, places);
+        if (looks) carried.colors = result.colors, carried.file = result.file;
+        result = std::move(carried);
+    }
     result.positions = sides.receiver.rest.positions;
-    tell_written(write_still(result, "what was carried over", {}, outputs, {}, writing), console);
+    tell_written(write_still(result, "what was carried over", {}, outputs, {}, a.writing), console);
 }
 
 void transfer(const Arguments& a, Console& console) {
@@ -115,8 +129,8 @@ void transfer(const Arguments& a, Console& console) {
     const std::vector<SurfacePoint> places = places_on(sides.receiver.fitted, sides.giver.fitted);
     stop_if_interrupted();
     warn_if_apart(sides, places, console);
-    keep_going(progress, 0.6, "carrying over");
-    if (!outputs.empty()) transfer_mesh(outputs, a.writing, sides, places, console);
+    keep_going(progress, 0.4, "carrying over");
+    if (!outputs.empty()) transfer_mesh(a, outputs, sides, places, part_of(progress, 0.4, 1), console);
     if (!a.values.empty()) transfer_values(a, sides, places, console);
     if (!a.points.empty()) transfer_points(a, sides, console);
 }
@@ -128,7 +142,8 @@ void add_transfer(CLI::App& app, const Common& common) {
                                                 "fitted mesh and its target");
     verb->footer("Example: meshtween transfer fitted.ply scan.ply --template template.ply -o coloured.ply\n"
                  "Example: meshtween transfer fitted.ply scan.ply --to target --values weights.csv --values-out "
-                 "scan_weights.csv");
+                 "scan_weights.csv\n"
+                 "Example: meshtween transfer fitted.obj scan.glb --template template.obj -o textured.glb");
     const auto a = std::make_shared<Arguments>();
     verb->add_option("FITTED", a->fitted, "The template on the target's surface, as fit wrote it")->required();
     verb->add_option("TARGET", a->target, "The mesh that it was fitted to")->required();
@@ -137,12 +152,13 @@ void add_transfer(CLI::App& app, const Common& common) {
         ->capture_default_str();
     verb->add_option("--template", a->template_mesh,
                      "The template before its fit: -o is written in its shape, and points are read or written on it");
-    verb->add_option("-o,--output", a->outputs,
-                     "The receiving mesh with the other's colours and texture coordinates: x.ply, .obj, .glb, .off, "
-                     ".png; may be given several times")
+    verb->add_option(
+            "-o,--output", a->outputs,
+            "The receiving mesh with the other's colours, pictures and texture coordinates: x.obj, .glb, .ply, "
+            ".off, .png; may be given several times")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    add_write_flags(*verb, a->writing);
+    add_texture_flag(*verb, a->look);
     auto* values = verb->add_option("--values", a->values,
                                     "CSV of numbers, a row for each vertex of the giving mesh (skin weights, a map)");
     values->needs(verb->add_option("--values-out", a->values_out, "The same for the receiving mesh")->needs(values));

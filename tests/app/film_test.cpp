@@ -32,7 +32,7 @@ TEST(Film, ShowsMotionFromOneCamera) {
     const Film film(ball, {ball.positions, there.positions}, 200);
     Mesh away = ball;
     away.positions.col(0).array() += 1000;
-    const Image first = film.frame(ball), last = film.frame(there), empty = film.frame(away);
+    const Image first = film.frame(ball.positions), last = film.frame(there.positions), empty = film.frame(away.positions);
     EXPECT_EQ(first.width, last.width);
     EXPECT_EQ(first.height, last.height);
     const auto [from, to] = columns_of(first, empty);

@@ -1,5 +1,7 @@
 #include "meshtween/app/preview.h"
 
+#include "meshtween/geometry/subdivide.h"
+
 #include "meshtween/app/raster.h"
 #include "meshtween/core/error.h"
 #include "meshtween/core/parallel.h"
@@ -119,6 +121,66 @@ TEST(Preview, InsideOutIsRed) {
     const Eigen::Vector3d clay = color_at(right, right.width / 2, 60), red = color_at(wrong, wrong.width / 2, 60);
     EXPECT_LT(clay[0], 1.35 * clay[2]);
     EXPECT_GT(red[0], 1.8 * red[2]);
+}
+
+// A square leaning away from the eye with a picture of four stripes along its y.
+Mesh striped_square() {
+    Mesh mesh;
+    mesh.positions.resize(4, 3);
+    mesh.positions << -1, 0, 0, 1, 0, 0, 1, 2, -6, -1, 2, -6;
+    mesh.triangles.resize(2, 3);
+    mesh.triangles << 0, 1, 2, 0, 2, 3;
+    mesh.texcoords.resize(4, 2);
+    mesh.texcoords << 0, 0, 1, 0, 1, 1, 0, 1;
+    mesh.texcoord_triangles = mesh.triangles;
+    return mesh;
+}
+
+Mesh with_picture(Mesh mesh, const Image& image) {
+    MeshFile file;
+    file.cut.resizeLike(mesh.triangles);
+    for (int i = 0; i < file.cut.size(); ++i) {
+        file.corners.push_back(mesh.triangles.data()[i]);
+        file.cut.data()[i] = i;
+        if (i % 3 == 2) file.ends.push_back(i + 1);
+    }
+    file.polygon_materials.assign(file.ends.size(), 0);
+    file.materials.push_back({.name = "stripes", .base_color_image = 0});
+    file.images.push_back({"stripes", "image/png", png_bytes(image), {}});
+    mesh.file = std::make_shared<MeshFile>(file);
+    return mesh;
+}
+
+TEST(Preview, PicturesLieOnTheSurfaceInPerspective) {
+    Image stripes{4, 64, {}};
+    for (int i = 0; i < 4 * 64; ++i)
+        for (const int c : {i / 64 % 2 == 0 ? 230 : 20, 60, i / 64 % 2 == 0 ? 20 : 230})
+            stripes.rgb.push_back(static_cast<std::uint8_t>(c));
+    const Mesh coarse = striped_square(), fine = subdivide(coarse, 5);
+    const Image one = contact_sheet({{"", with_picture(coarse, stripes), {}}}, {.tile = 160});
+    const Image many = contact_sheet({{"", with_picture(fine, stripes), {}}}, {.tile = 160});
+    ASSERT_EQ(one.rgb.size(), many.rgb.size());
+    double difference = 0, colourful = 0;
+    for (std::size_t i = 0; i < one.rgb.size(); i += 3) {
+        difference += std::abs(one.rgb[i] - many.rgb[i]);
+        colourful += std::abs(one.rgb[i] - one.rgb[i + 2]) > 60;
+    }
+    EXPECT_GT(colourful, 500);
+    EXPECT_LT(difference / static_cast<double>(one.rgb.size()), 0.2);
+}
+
+TEST(Preview, ALookFadesToAnother) {
+    Mesh red = sphere(1), blue = sphere(1);
+    for (Mesh* mesh : {&red, &blue}) mesh->colors = Colors::Zero(mesh->positions.rows(), 4);
+    red.colors.col(0).setOnes(), blue.colors.col(2).setOnes();
+    const auto other = std::make_shared<const Mesh>(blue);
+    const auto middle = [&](double faded) {
+        const Image image = contact_sheet({{"", red, {}, other, faded}}, {.tile = 120});
+        return color_at(image, image.width / 2, 60);
+    };
+    EXPECT_GT(middle(0)[0], 2 * middle(0)[2]);
+    EXPECT_GT(middle(1)[2], 2 * middle(1)[0]);
+    EXPECT_NEAR(middle(0.5)[0] / middle(0.5)[2], 1, 0.15);
 }
 
 TEST(Preview, VertexColoursAreShown) {

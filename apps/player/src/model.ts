@@ -1,5 +1,5 @@
 // The page's GLB: its shapes, and the mesh that shows one of those between them.
-import { Box3, Matrix4, Mesh, Vector3, type BufferAttribute, type Group } from 'three';
+import { Box3, Matrix4, Mesh, Vector3, type BufferAttribute, type Group, type Material } from 'three';
 import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
 import { spline } from './spline';
 
@@ -26,13 +26,18 @@ export async function loadModel(glb: ArrayBuffer): Promise<Model> {
     const { scene } = await new GLTFLoader().parseAsync(glb, '');
     scene.updateMatrixWorld(true);
     let found: Mesh | undefined;
+    const covers: Mesh[] = []; // a second look, which lies over the first as it fades in
     scene.traverse((object) => {
-        if (object instanceof Mesh) found ??= object;
+        if (!(object instanceof Mesh)) return;
+        if (found) covers.push(object);
+        else found = object;
     });
     if (!found) throw new Error('the file holds no mesh');
     const mesh = found;
     mesh.frustumCulled = false; // its bounds are those of the first shape only
     mesh.castShadow = mesh.receiveShadow = true;
+
+    for (const cover of covers) layOver(mesh, cover);
 
     const toScene = mesh.matrixWorld.clone();
     const degree = (mesh.userData['degree'] as number | undefined) ?? 0;
@@ -51,6 +56,16 @@ export async function loadModel(glb: ArrayBuffer): Promise<Model> {
         setU: (u) => weights(u).slice(1).forEach((weight, k) => (influences[k] = weight)),
         vertices: () => verticesOf(mesh, toScene),
     };
+}
+
+// Moves as the mesh does, and is drawn a little in front of it.
+function layOver(mesh: Mesh, cover: Mesh): void {
+    cover.morphTargetInfluences = mesh.morphTargetInfluences;
+    cover.frustumCulled = false;
+    cover.receiveShadow = true;
+    const material = cover.material as Material;
+    material.polygonOffset = true;
+    material.polygonOffsetFactor = material.polygonOffsetUnits = -1;
 }
 
 function verticesOf(mesh: Mesh, toScene: Matrix4): Float64Array {

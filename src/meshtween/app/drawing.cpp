@@ -22,7 +22,7 @@ float toned(float v) {
     return v < 0.6F ? v : 0.6F + 0.4F * (1 - std::exp(-(v - 0.6F) / 0.4F));
 }
 
-// A place seen in some of a pixel's samples, with the colour of the surface there.
+// A place seen in some of a pixel's samples, with the colours of the surface there added up.
 struct Fragment {
     SurfaceSpot place;
     Eigen::Vector3f albedo;
@@ -30,17 +30,15 @@ struct Fragment {
     int samples = 0;
 };
 
-Eigen::Vector3f albedo_at(const Mesh& mesh, const Eigen::RowVector3i& corners, const Eigen::Vector3f& shares,
-                          bool inside) {
+Eigen::Vector3f albedo_at(const Dress& dress, int triangle, const Eigen::Vector3f& shares, bool inside) {
     if (inside) return {0.55F, 0.16F, 0.13F};
-    if (mesh.colors.rows() != mesh.positions.rows()) return {0.70F, 0.625F, 0.555F}; // clay
-    Eigen::Vector3f color(0, 0, 0);
-    for (int c = 0; c < 3; ++c) color += shares[c] * mesh.colors.row(corners[c]).head<3>().transpose();
-    return color.unaryExpr([](float v) { return linear_from_srgb(std::clamp(v, 0.0F, 1.0F)); });
+    const Eigen::Vector3f color = dress.look.at(triangle, shares);
+    if (dress.other == nullptr) return color;
+    return (1 - dress.faded) * color + dress.faded * dress.other->at(triangle, shares);
 }
 
 // The surface under a sample. Normals face the eye; where the triangle itself does not, its inside is seen.
-Fragment fragment_at(const Mesh& mesh, const Shape& shape, const CornerNormals& normals, const Camera& camera,
+Fragment fragment_at(const Dress& dress, const Shape& shape, const CornerNormals& normals, const Camera& camera,
                      const Samples& samples, std::size_t at) {
     const int t = samples.triangle[at];
     const Eigen::RowVector3i corners = shape.triangles.row(t);
@@ -59,12 +57,13 @@ Fragment fragment_at(const Mesh& mesh, const Shape& shape, const CornerNormals& 
     normal.normalize();
     if (const double away = normal.dot(to_eye); away < 0.02) normal = (normal + (0.02 - away) * to_eye).normalized();
     fragment.place = {position, normal};
-    fragment.albedo = albedo_at(mesh, corners, shares, inside);
+    fragment.albedo =
+        albedo_at(dress, shape.kept.empty() ? t : shape.kept[static_cast<std::size_t>(t)], shares, inside);
     return fragment;
 }
 
 // Pixel by pixel what is seen, samples of nearly equal place joined: light is worked out once for them.
-std::vector<Fragment> fragments(const Mesh& mesh, const Shape& shape, const Camera& camera, const Samples& samples) {
+std::vector<Fragment> fragments(const Dress& dress, const Shape& shape, const Camera& camera, const Samples& samples) {
     const CornerNormals normals = corner_normals(shape.positions, shape.triangles);
     const int width = samples.width / supersample, height = samples.height / supersample;
     const double close = 3 * supersample / camera.scale;
@@ -77,10 +76,10 @@ std::vector<Fragment> fragments(const Mesh& mesh, const Shape& shape, const Came
                 const auto at = static_cast<std::size_t>((y * supersample + s / supersample) * samples.width +
                                                          x * supersample + s % supersample);
                 if (samples.triangle[at] < 0) continue;
-                Fragment found = fragment_at(mesh, shape, normals, camera, samples, at);
+                Fragment found = fragment_at(dress, shape, normals, camera, samples, at);
                 const auto same =
                     std::find_if(row.begin() + static_cast<std::ptrdiff_t>(first), row.end(), [&](auto& f) {
-                        return f.place.normal.dot(found.place.normal) > 0.98 && f.albedo.isApprox(found.albedo, 0.1F) &&
+                        return f.place.normal.dot(found.place.normal) > 0.98 &&
                                (f.place.position - found.place.position).norm() < close;
                     });
                 if (same == row.end()) {
@@ -88,6 +87,7 @@ std::vector<Fragment> fragments(const Mesh& mesh, const Shape& shape, const Came
                     found.samples = 1;
                     row.push_back(found);
                 } else {
+                    same->albedo += found.albedo;
                     ++same->samples;
                 }
             }
@@ -178,7 +178,7 @@ Canvas backdrop(int width, int height) {
     return canvas;
 }
 
-Samples draw_shape(Canvas& canvas, int canvas_width, int left, int top, const Mesh& mesh, const Shape& shape,
+Samples draw_shape(Canvas& canvas, int canvas_width, int left, int top, const Dress& dress, const Shape& shape,
                    const Layout& layout) {
     const Camera& camera = layout.camera;
     Points screen(shape.positions.rows(), 3);
@@ -194,7 +194,7 @@ Samples draw_shape(Canvas& canvas, int canvas_width, int left, int top, const Me
     };
     for (int pixel = 0; pixel < layout.width * rows; ++pixel)
         canvas.row(at(pixel)) *= 1 - shadow[static_cast<std::size_t>(pixel)];
-    const std::vector<Fragment> seen = fragments(mesh, shape, camera, samples);
+    const std::vector<Fragment> seen = fragments(dress, shape, camera, samples);
     std::vector<SurfaceSpot> places(seen.size());
     std::transform(seen.begin(), seen.end(), places.begin(), [](const Fragment& f) { return f.place; });
     const std::vector<Lit> lit = light(places, shape.positions, shape.triangles, camera.axes);
@@ -206,7 +206,8 @@ Samples draw_shape(Canvas& canvas, int canvas_width, int left, int top, const Me
         canvas.row(at(pixel)) *= 1 - share * static_cast<float>(covered[static_cast<std::size_t>(pixel)]);
     for (std::size_t i = 0; i < seen.size(); ++i) {
         const Eigen::Vector3d to_eye = (camera.eye() - seen[i].place.position).normalized();
-        const Eigen::Vector3f color = shade(seen[i].place, lit[i], seen[i].albedo, to_eye, camera.axes);
+        const Eigen::Vector3f albedo = seen[i].albedo / static_cast<float>(seen[i].samples);
+        const Eigen::Vector3f color = shade(seen[i].place, lit[i], albedo, to_eye, camera.axes);
         canvas.row(at(seen[i].pixel)) +=
             share * static_cast<float>(seen[i].samples) * color.unaryExpr(&toned).transpose().array();
     }

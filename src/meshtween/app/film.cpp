@@ -6,7 +6,9 @@
 
 namespace meshtween {
 
-Film::Film(const Mesh& mesh, const std::vector<Points>& examples, int size) {
+Film::Film(const Mesh& mesh, const std::vector<Points>& examples, int size, const Mesh* other)
+    : mesh_(&mesh), look_(mesh) {
+    if (other != nullptr) other_.emplace(*other);
     if (examples.empty()) throw Error(ErrorKind::argument, "a film needs at least one shape");
     if (size < 16 || size > 8192)
         throw Error(ErrorKind::argument, fmt::format("a picture of {} pixels: 16 to 8192 can be drawn", size));
@@ -27,10 +29,11 @@ Shape Film::placed(const Points& positions, const Triangles& triangles) const {
     return {positions.rowwise() - origin, triangles, origin, 1};
 }
 
-Image Film::frame(const Mesh& mesh) const {
+Image Film::frame(const Points& positions, double faded) const {
     const int height = layout_.height + layout_.caption;
     Canvas canvas = backdrop(layout_.width, height);
-    draw_shape(canvas, layout_.width, 0, 0, mesh, placed(mesh.positions, mesh.triangles), layout_);
+    const Dress dress{look_, other_ ? &*other_ : nullptr, static_cast<float>(faded)};
+    draw_shape(canvas, layout_.width, 0, 0, dress, placed(positions, mesh_->triangles), layout_);
     return developed(canvas, layout_.width, height);
 }
 

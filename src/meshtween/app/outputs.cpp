@@ -1,8 +1,10 @@
 #include "meshtween/app/outputs.h"
 
+#include "meshtween/app/fading.h"
 #include "meshtween/app/film.h"
 #include "meshtween/app/path_plot.h"
 #include "meshtween/core/error.h"
+#include "meshtween/fit/faded_look.h"
 #include "meshtween/io/mesh_io.h"
 #include "meshtween/io/output.h"
 
@@ -32,14 +34,32 @@ Mesh with_positions(const Mesh& mesh, Points positions) {
     return moved;
 }
 
-// The shape at a moment of the whole.
-Mesh shown_at(const Playable& playable, double time) {
-    return with_positions(playable.mesh, playable.path.at(ease(playable.play.ease, time)));
-}
-
 // Every frame of a sequence says the same: once is enough.
 void note(Written& written, const std::vector<std::string>& notes, bool first = true) {
     if (first) written.notes.insert(written.notes.end(), notes.begin(), notes.end());
+}
+
+// The shape at a place of the path, with its look there.
+Mesh shown_at(const Playable& playable, double u) {
+    const Mesh mesh = with_positions(playable.mesh, playable.path.at(u));
+    return playable.other ? faded_look(mesh, *playable.other, u) : mesh;
+}
+
+bool pictures_fade(const Playable& playable) {
+    return playable.other && (shows_materials(playable.mesh) || shows_materials(*playable.other));
+}
+
+std::string played(const Playable& playable) {
+    const WeightKeys keys = playable.keys ? *playable.keys : weight_keys(playable.path, playable.play);
+    const auto dressed = [&](const Mesh& mesh) { return morph_glb(mesh, playable.path, keys, playable.play.title); };
+    if (!playable.other) return dressed(playable.mesh);
+    Mesh from = playable.mesh, to = *playable.other;
+    const bool pictures = pictures_fade(playable);
+    if (!pictures)
+        for (Mesh* mesh : {&from, &to})
+            if (mesh->colors.rows() == 0) mesh->colors = plain_colors(mesh->positions.rows());
+    return fading_glb(dressed(from), dressed(to), shares_of_u(playable.path),
+                      pictures ? Fading::cover : Fading::colors);
 }
 
 Film film_of(const Playable& playable) {
@@ -49,7 +69,7 @@ Film film_of(const Playable& playable) {
     for (std::size_t p = 0; p + 1 < keys.size(); ++p)
         for (int i = p == 0 ? 0 : 1; i <= steps; ++i)
             examples.push_back(playable.path.at(keys[p] + (keys[p + 1] - keys[p]) * i / steps));
-    return {playable.mesh, examples};
+    return {playable.mesh, examples, 420, playable.other.get()};
 }
 
 void write_sequence(const Playable& playable, const std::filesystem::path& pattern, const Progress& progress,
@@ -63,13 +83,16 @@ void write_sequence(const Playable& playable, const std::filesystem::path& patte
             return;
         }
         const auto path = numbered(pattern, static_cast<int>(i));
-        const Mesh mesh = shown_at(playable, times[i]);
+        const double u = ease(playable.play.ease, times[i]);
         if (film)
-            write_png(film->frame(mesh), path);
+            write_png(film->frame(playable.path.at(u), u), path);
         else
-            note(written, write_mesh(mesh, path, playable.writing), i == 0);
+            note(written, write_mesh(shown_at(playable, u), path, playable.writing), i == 0);
         written.files.push_back(path);
     }
+    if (!film && pictures_fade(playable))
+        written.notes.push_back(pattern.string() + ": a picture cannot fade from file to file; before the middle the "
+                                                   "frames have the first look, then the second");
 }
 
 // It repeats for ever: there and back, unless the path is closed or shall jump. False where it was cancelled.
@@ -80,7 +103,8 @@ bool write_film(const Playable& playable, const std::filesystem::path& path, con
     std::vector<Image> images;
     for (const double time : times) {
         if (!keep_going(progress, double(images.size()) / double(times.size()), "drawing")) return false;
-        images.push_back(film.frame(shown_at(playable, time)));
+        const double u = ease(playable.play.ease, time);
+        images.push_back(film.frame(playable.path.at(u), u));
     }
     write_animated_png(images, playable.play.seconds / std::max(1, playable.frames - 1), path);
     return true;
@@ -102,7 +126,11 @@ bool write_sheet(const Playable& playable, const std::filesystem::path& path, co
         for (int i = p == 0 ? 0 : 1; i <= parts; ++i) {
             const double u = keys[p] + (keys[p + 1] - keys[p]) * i / parts;
             if (playable.ends_before && (u == 0 || u == 1)) continue;
-            tiles.push_back({fmt::format("u = {:.2f}", u), with_positions(playable.mesh, playable.path.at(u)), {}});
+            tiles.push_back({fmt::format("u = {:.2f}", u),
+                             with_positions(playable.mesh, playable.path.at(u)),
+                             {},
+                             playable.other,
+                             u});
         }
     return write_tiles(tiles, path, progress);
 }
@@ -198,10 +226,7 @@ Written write_outputs(const Playable& playable, const std::vector<Output>& outpu
     check_playable(outputs);
     Written written;
     std::string glb;
-    if (any_played(outputs))
-        glb =
-            morph_glb(playable.mesh, playable.path,
-                      playable.keys ? *playable.keys : weight_keys(playable.path, playable.play), playable.play.title);
+    if (any_played(outputs)) glb = played(playable);
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         const auto& [kind, path] = outputs[i];
         const double count = double(outputs.size());

@@ -8,6 +8,7 @@
 #include "meshtween/morph/path_quality.h"
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -52,7 +53,9 @@ enum class FrameOrder {
 
 // A morph ready to be written.
 struct Playable {
-    Mesh mesh;  // triangles and attributes; positions are those at u = 0
+    Mesh mesh; // triangles and attributes; positions are those at u = 0
+    // The same triangles with another look, to which the mesh's own fades with u; or none.
+    std::shared_ptr<const Mesh> other = {};
     Curve path; // from which every output takes its shapes
     PlayOptions play;
     int frames = 11; // of a sequence or a film, from the first shape to the last

@@ -7,7 +7,7 @@
 #define STB_IMAGE_WRITE_STATIC
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
-#include <stb/stb_image_write.h>
+#include <stb/stb_image_write.h> // for its sum of a chunk
 #pragma GCC diagnostic pop
 
 #include <algorithm>
@@ -16,15 +16,6 @@
 
 namespace meshtween {
 namespace {
-
-std::string png_bytes(const Image& image) {
-    std::string bytes;
-    const auto append = [](void* to, void* data, int size) {
-        static_cast<std::string*>(to)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
-    };
-    stbi_write_png_to_func(append, &bytes, image.width, image.height, 3, image.rgb.data(), image.width * 3);
-    return bytes;
-}
 
 std::string big_endian(std::uint64_t value, int bytes) {
     std::string text;

@@ -68,6 +68,20 @@ void check(const std::vector<Tile>& tiles, const SheetOptions& options) {
                                 tiles.size(), options.tile));
 }
 
+// The looks of several meshes; pictures of one file are read once.
+class Wardrobe {
+public:
+    const Appearance& look_of(const Mesh& mesh) {
+        for (const auto& [known, look] : looks_)
+            if (mesh.file && known->file == mesh.file)
+                return *looks_.emplace_back(&mesh, std::make_unique<Appearance>(mesh, *look)).second;
+        return *looks_.emplace_back(&mesh, std::make_unique<Appearance>(mesh)).second;
+    }
+
+private:
+    std::vector<std::pair<const Mesh*, std::unique_ptr<Appearance>>> looks_;
+};
+
 } // namespace
 
 Image contact_sheet(const std::vector<Tile>& tiles, const SheetOptions& options, const Progress& progress) {
@@ -84,9 +98,13 @@ Image contact_sheet(const std::vector<Tile>& tiles, const SheetOptions& options,
     };
     Canvas canvas = backdrop(width, height);
     std::vector<Samples> samples(tiles.size());
+    Wardrobe wardrobe;
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         if (!keep_going(progress, static_cast<double>(i) / static_cast<double>(tiles.size()), "drawing")) break;
-        Samples seen = draw_shape(canvas, width, left(i), top(i), tiles[i].mesh, shapes[i], layout);
+        const Dress dress{wardrobe.look_of(tiles[i].mesh),
+                          tiles[i].other ? &wardrobe.look_of(*tiles[i].other) : nullptr,
+                          static_cast<float>(tiles[i].faded)};
+        Samples seen = draw_shape(canvas, width, left(i), top(i), dress, shapes[i], layout);
         if (tiles[i].marks.rows() > 0) samples[i] = std::move(seen);
     }
     Image image = developed(canvas, width, height);

@@ -3,24 +3,23 @@
 
 #include "meshtween/core/mesh.h"
 #include "meshtween/core/progress.h"
+#include "meshtween/io/image.h"
 
-#include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace meshtween {
-
-struct Image {
-    int width = 0, height = 0;
-    std::vector<std::uint8_t> rgb; // width * height * 3, rows from the top
-};
 
 // One picture on a contact sheet.
 struct Tile {
     std::string caption; // UTF-8; a second line, after '\n', is set smaller
     Mesh mesh;
     Points marks; // M x 3 points to draw as dots, or empty; those behind the surface are rings
+    // The same triangles with another look, to which the tile has faded by this much; or none.
+    std::shared_ptr<const Mesh> other = {};
+    double faded = 0;
 };
 
 struct SheetOptions {

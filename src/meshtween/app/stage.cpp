@@ -14,11 +14,11 @@ constexpr double shadow_room = 0.06; // at the sides of the shapes, parts of the
 // Moves the middle of the mesh's box, on the ground, to the origin. Leaves out what is not finite.
 Shape grounded(const Mesh& mesh) {
     Point low = Point::Constant(std::numeric_limits<double>::infinity()), high = -low;
-    std::vector<Eigen::Index> kept;
+    std::vector<int> kept;
     for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
         const auto finite = [&](int c) { return mesh.positions.row(mesh.triangles(t, c)).allFinite(); };
         if (!finite(0) || !finite(1) || !finite(2)) continue;
-        kept.push_back(t);
+        kept.push_back(static_cast<int>(t));
         for (int c = 0; c < 3; ++c) {
             low = low.cwiseMin(mesh.positions.row(mesh.triangles(t, c)));
             high = high.cwiseMax(mesh.positions.row(mesh.triangles(t, c)));
@@ -27,6 +27,7 @@ Shape grounded(const Mesh& mesh) {
     Shape shape;
     if (kept.empty()) return shape;
     shape.triangles = mesh.triangles(kept, Eigen::all);
+    shape.kept = kept;
     shape.origin << (low[0] + high[0]) / 2, low[1], (low[2] + high[2]) / 2;
     shape.positions.resizeLike(mesh.positions);
     for (Eigen::Index i = 0; i < mesh.positions.rows(); ++i) {

@@ -39,8 +39,9 @@ struct Layout {
 struct Shape {
     Points positions; // relative to the tile's origin, in the sheet's unit
     Triangles triangles;
-    Point origin{0, 0, 0}; // in the mesh's coordinates
-    double unit = 1;       // the sheet's units in one of the mesh's
+    Point origin{0, 0, 0};      // in the mesh's coordinates
+    double unit = 1;            // the sheet's units in one of the mesh's
+    std::vector<int> kept = {}; // a triangle: its number in the mesh; empty where all are there
 };
 
 // All shapes on the ground, at one scale; but where their sizes differ so much that one could not be seen (metres and
