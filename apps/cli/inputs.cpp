@@ -66,12 +66,35 @@ std::vector<Mesh> load_one_connectivity(const std::vector<std::string>& paths, C
     return meshes;
 }
 
+MarkerReading marker_reading(const std::string& systems) {
+    MarkerReading reading;
+    if (systems.empty()) return reading;
+    const std::size_t comma = std::min(systems.find(','), systems.size());
+    reading.systems = {space_named(systems.substr(0, comma)),
+                       space_named(comma < systems.size() ? systems.substr(comma + 1) : systems)};
+    return reading;
+}
+
+void add_markers_system(CLI::App& verb, std::string& systems) {
+    const auto check = [](const std::string& given) {
+        const auto [source, target] = marker_reading(given).systems;
+        return source != Space::unknown && target != Space::unknown
+                   ? std::string()
+                   : given + " is neither RAS nor LPS, nor two of them";
+    };
+    verb.add_option("--markers-system", systems,
+                    "The system of the markers' coordinates, whatever their files say: RAS or LPS, or two with a comma "
+                    "for the source's and the target's; beside it a mesh that names none is taken to be in LPS")
+        ->check(check);
+}
+
 MarkerPairs load_markers(const std::vector<std::string>& files, const Mesh& source, const Mesh& target,
-                         Console& console) {
+                         Console& console, const std::string& systems) {
     if (files.empty()) return {};
-    MarkerPairs markers = files.size() == 2 ? read_marker_pairs(files[0], files[1], source, target)
-                                            : read_marker_pairs(files[0], source, target);
-    console.warn(files[0] + ": ", markers.notes);
+    const MarkerReading reading = marker_reading(systems);
+    MarkerPairs markers = files.size() == 2 ? read_marker_pairs(files[0], files[1], source, target, reading)
+                                            : read_marker_pairs(files[0], source, target, reading);
+    console.warn("", markers.notes);
     if (markers.pairs.empty())
         throw Error(ErrorKind::file,
                     fmt::format("{}: no usable pair of markers; correct the file, or leave --markers out", files[0]));

@@ -27,7 +27,10 @@ meshtween::Mesh load_mesh(const std::string& path, Console& console, meshtween::
 std::vector<meshtween::Mesh> load_one_connectivity(const std::vector<std::string>& paths, Console& console);
 // None where no file is named. Throws Error(file) for a file without a usable pair.
 meshtween::MarkerPairs load_markers(const std::vector<std::string>& files, const meshtween::Mesh& source,
-                                    const meshtween::Mesh& target, Console& console);
+                                    const meshtween::Mesh& target, Console& console, const std::string& systems = {});
+// --markers-system, and what was given with it: a word for all files, or two for the source's and the target's.
+void add_markers_system(CLI::App& verb, std::string& systems);
+meshtween::MarkerReading marker_reading(const std::string& systems);
 std::vector<meshtween::Output> load_outputs(const std::vector<std::string>& names);
 // How meshes are written.
 void add_write_flags(CLI::App& verb, meshtween::WriteOptions& options);

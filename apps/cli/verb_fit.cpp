@@ -7,7 +7,7 @@ using namespace meshtween;
 
 namespace {
 struct Arguments {
-    std::string source, target, truth, report;
+    std::string source, target, truth, markers_system, report;
     std::vector<std::string> markers, outputs;
     WriteOptions writing;
     FitFlags fit;
@@ -24,6 +24,7 @@ void add_fit(CLI::App& app, const Common& common) {
     verb->add_option("--markers", a->markers,
                      "Marker pairs in one file, or the source's and the target's file; without, the start is a guess")
         ->expected(1, 2);
+    add_markers_system(*verb, a->markers_system);
     verb->add_option("-o,--output", a->outputs,
                      "x.obj, .ply, .stl, .off, .glb, .vtk, .vtp, .usda or .png; may be given several times")
         ->required()
@@ -45,7 +46,7 @@ void add_fit(CLI::App& app, const Common& common) {
                    target = load_mesh(a->target, console, report["target"]);
         const bool dressed = a->look.appearance == "target";
         if (dressed) require_look(target, a->target);
-        const MarkerPairs markers = load_markers(a->markers, source, target, console);
+        const MarkerPairs markers = load_markers(a->markers, source, target, console, a->markers_system);
         const Progress progress = console.progress();
         const Fitted fitted = run_fit(source, target, markers, a->fit, common.seed, part_of(progress, 0, 0.8), console);
         report["fit"] = fitted.report;

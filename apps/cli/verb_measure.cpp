@@ -12,7 +12,7 @@ using namespace meshtween;
 
 namespace {
 struct Arguments {
-    std::string source, fitted, target, truth;
+    std::string source, fitted, target, truth, markers_system;
     std::vector<std::string> markers;
 };
 } // namespace
@@ -27,13 +27,14 @@ void add_measure(CLI::App& app, const Common& common) {
     verb->add_option("TARGET", a->target, "The mesh that it was fitted to")->required();
     verb->add_option("--truth", a->truth, "CSV of x,y,z: where each vertex should be, in order");
     verb->add_option("--markers", a->markers, "Marker pairs to score")->expected(1, 2);
+    add_markers_system(*verb, a->markers_system);
     verb->callback([a, &common] {
         Console console(common.quiet);
         const Mesh source = load_mesh(a->source, console), fitted = load_mesh(a->fitted, console),
                    target = load_mesh(a->target, console);
         const Points truth = a->truth.empty() ? Points() : read_points(a->truth);
         MarkerPairs markers;
-        if (!a->markers.empty()) markers = load_markers(a->markers, source, target, console);
+        if (!a->markers.empty()) markers = load_markers(a->markers, source, target, console, a->markers_system);
         fmt::print(
             "{}\n",
             to_json(measure(source, fitted, target, truth, place_markers(markers.pairs, source), common.seed)).dump(2));

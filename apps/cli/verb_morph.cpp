@@ -9,7 +9,7 @@ using namespace meshtween;
 namespace {
 
 struct Arguments {
-    std::string source, target, template_mesh;
+    std::string source, target, template_mesh, markers_system;
     std::vector<std::string> markers, markers_a, markers_b, outputs;
     FitFlags fit;
     PathFlags path;
@@ -51,7 +51,7 @@ void morph_two(const Arguments& a, std::uint32_t seed, Console& console, Json& r
     const Mesh source = load_mesh(a.source, console, report["source"]),
                target = load_mesh(a.target, console, report["target"]);
     if (shows_target(a.look)) require_look(target, a.target);
-    const MarkerPairs markers = load_markers(a.markers, source, target, console);
+    const MarkerPairs markers = load_markers(a.markers, source, target, console, a.markers_system);
     const Progress progress = console.progress();
     const Fitted fitted = run_fit(source, target, markers, a.fit, seed, part_of(progress, 0, 0.55), console);
     report["fit"] = fitted.report;
@@ -86,8 +86,8 @@ void morph_through_template(const Arguments& a, std::uint32_t seed, Console& con
                second = load_mesh(a.target, console, report["target"]);
     if (shows_source(a.look)) require_look(first, a.source);
     if (shows_target(a.look)) require_look(second, a.target);
-    const MarkerPairs to_first = load_markers(a.markers_a, common, first, console);
-    const MarkerPairs to_second = load_markers(a.markers_b, common, second, console);
+    const MarkerPairs to_first = load_markers(a.markers_a, common, first, console, a.markers_system);
+    const MarkerPairs to_second = load_markers(a.markers_b, common, second, console, a.markers_system);
     const Progress progress = console.progress();
     const Fitted from = run_fit(common, first, to_first, a.fit, seed, part_of(progress, 0, 0.35), console);
     const Fitted to = run_fit(common, second, to_second, a.fit, seed, part_of(progress, 0.35, 0.7), console);
@@ -128,6 +128,7 @@ void add_morph(CLI::App& app, const Common& common) {
     verb->add_option("--markers-a", a->markers_a, "Template and SOURCE")->expected(1, 2)->needs(with_template);
     verb->add_option("--markers-b", a->markers_b, "Template and TARGET")->expected(1, 2)->needs(with_template);
     with_template->excludes(markers);
+    add_markers_system(*verb, a->markers_system);
     verb->add_option("-o,--output", a->outputs,
                      "x.glb, x.html, x.png, x.apng, x.svg or frame_####.obj; may be given several times")
         ->required()

@@ -13,7 +13,7 @@ using namespace meshtween;
 namespace {
 
 struct Arguments {
-    std::string mesh, markers;
+    std::string mesh, markers, markers_system;
     std::vector<double> axis, centre;
     double angle = 0;
     std::vector<std::string> outputs;
@@ -35,6 +35,7 @@ void add_rotate(CLI::App& app, const Common& common) {
     const auto a = std::make_shared<Arguments>();
     verb->add_option("MESH", a->mesh, "Mesh to deform")->required();
     verb->add_option("--markers", a->markers, "CSV of name,x,y,z,role")->required();
+    add_markers_system(*verb, a->markers_system);
     verb->add_option("--axis", a->axis, "X,Y,Z of the axis' direction")->required()->delimiter(',')->expected(3);
     verb->add_option("--centre", a->centre, "X,Y,Z of a point on the axis")->required()->delimiter(',')->expected(3);
     verb->add_option("--angle", a->angle, "Degrees, counter-clockwise seen against the axis; any size")->required();
@@ -48,7 +49,8 @@ void add_rotate(CLI::App& app, const Common& common) {
         Console console(common.quiet);
         const auto outputs = load_outputs(a->outputs);
         const Mesh mesh = load_mesh(a->mesh, console);
-        const RotationMarkers markers = read_rotation_markers(a->markers);
+        const RotationMarkers markers = read_rotation_markers(a->markers, mesh, marker_reading(a->markers_system));
+        console.warn("", markers.notes);
         Mesh turned = mesh;
         turned.positions =
             rotate(mesh.positions, markers.turn, markers.hold, point(a->axis), point(a->centre), a->angle);

@@ -22,7 +22,7 @@ struct Arguments {
     std::vector<std::string> outputs;
     WriteOptions writing;
     LookFlags look;
-    std::string values, values_out, points, points_out;
+    std::string values, values_out, points, points_out, markers_system;
 };
 
 // The two sides, each as its file is named.
@@ -83,15 +83,23 @@ void transfer_values(const Arguments& a, const Sides& sides, const std::vector<S
 }
 
 void transfer_points(const Arguments& a, const Sides& sides, Console& console) {
-    Landmarks given = read_landmarks(a.points, sides.giver.rest);
+    Landmarks given = read_landmarks(a.points, sides.giver.rest, marker_reading(a.markers_system));
     console.warn("", given.notes);
-    std::erase_if(given.points, [](const Landmark& point) { return !point.position; });
+    // Names say which are gone; without names their order does, so they stay.
+    if (holds_names(a.points_out)) std::erase_if(given.points, [](const Landmark& point) { return !point.position; });
     Points points(std::ssize(given.points), 3);
-    for (Eigen::Index i = 0; i < points.rows(); ++i)
-        points.row(i) = *given.points[static_cast<std::size_t>(i)].position;
-    const Points moved = carried_points(points, sides.giver, sides.receiver);
-    for (Eigen::Index i = 0; i < points.rows(); ++i) given.points[static_cast<std::size_t>(i)].position = moved.row(i);
-    console.warn("", write_landmarks(given.points, a.points_out, &sides.receiver.rest));
+    std::vector<std::size_t> there;
+    for (std::size_t i = 0; i < given.points.size(); ++i)
+        if (given.points[i].position) {
+            points.row(std::ssize(there)) = *given.points[i].position;
+            there.push_back(i);
+        }
+    LandmarkNumbers moved{"distance", {}};
+    const Points carried =
+        carried_points(points.topRows(std::ssize(there)), sides.giver, sides.receiver, &moved.values);
+    for (std::size_t i = 0; i < there.size(); ++i)
+        given.points[there[i]].position = carried.row(static_cast<Eigen::Index>(i));
+    console.warn("", write_landmarks(given.points, a.points_out, &sides.receiver.rest, moved));
     console.note("wrote " + a.points_out);
 }
 
@@ -123,6 +131,7 @@ void transfer(const Arguments& a, Console& console) {
         throw Error(ErrorKind::argument, "transfer needs something to carry: -o for colours and texture coordinates, "
                                          "--values with --values-out, --points with --points-out");
     const auto outputs = load_outputs(a.outputs);
+    if (!a.points_out.empty()) holds_names(a.points_out); // or it says which names it knows
     const Sides sides = load_sides(a, console);
     const Progress progress = console.progress();
     keep_going(progress, 0.2, "finding places");
@@ -164,8 +173,11 @@ void add_transfer(CLI::App& app, const Common& common) {
     values->needs(verb->add_option("--values-out", a->values_out, "The same for the receiving mesh")->needs(values));
     auto* points =
         verb->add_option("--points", a->points, "Points on the giving mesh: any file of markers of one side");
-    points->needs(
-        verb->add_option("--points-out", a->points_out, "CSV of name,x,y,z on the receiving mesh")->needs(points));
+    points->needs(verb->add_option("--points-out", a->points_out,
+                                   "The same on the receiving mesh: x.csv (with how far each was moved to the "
+                                   "surface), .pp, .fcsv, .mrk.json, .json, .pts, .dta, .tps, .txt, .landmarkAscii")
+                      ->needs(points));
+    add_markers_system(*verb, a->markers_system);
     verb->callback([a, &common] {
         Console console(common.quiet);
         transfer(*a, console);

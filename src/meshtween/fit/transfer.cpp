@@ -154,12 +154,15 @@ Mesh with_attributes(const Mesh& receiver, const Mesh& giver, const std::vector<
     return result;
 }
 
-Points carried_points(const Points& points, const TwoShapes& giver, const TwoShapes& receiver) {
+Points carried_points(const Points& points, const TwoShapes& giver, const TwoShapes& receiver,
+                      std::vector<double>* distances) {
     const ClosestPointIndex start(giver.rest), end(receiver.fitted);
     const Points normals = triangle_normals(giver.fitted.positions, giver.fitted.triangles);
     Points result(points.rows(), 3);
     for (Eigen::Index i = 0; i < points.rows(); ++i) {
-        const SurfacePoint from = start.closest(Point(points.row(i))).where;
+        const ClosestPoint foot = start.closest(Point(points.row(i)));
+        const SurfacePoint& from = foot.where;
+        if (distances != nullptr) distances->push_back(std::sqrt(foot.squared_distance));
         const Point at = position(giver.fitted.positions, giver.fitted.triangles, from);
         ClosestPoint to = end.closest(at);
         const ClosestPoint alike = end.closest(at, {normals.row(from.triangle), 0.0},

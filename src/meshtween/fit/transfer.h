@@ -22,7 +22,8 @@ struct TwoShapes {
 
 // Points on or near the giver's rest shape, brought to the receiver's: to the giver's surface, with it to its fitted
 // shape, from there to the closest place of the receiver's fitted shape, and with that to the receiver's rest shape.
-// k x 3 to k x 3.
-Points carried_points(const Points& points, const TwoShapes& giver, const TwoShapes& receiver);
+// k x 3 to k x 3; `distances`, where asked for, is how far each lay from the giver's surface, in the mesh's unit.
+Points carried_points(const Points& points, const TwoShapes& giver, const TwoShapes& receiver,
+                      std::vector<double>* distances = nullptr);
 
 } // namespace meshtween

@@ -108,54 +108,55 @@ std::vector<Cause> causes() {
     return result;
 }
 
-std::string likely_remedy(const Points& places, const Surface& own, const Surface& other, const char* other_name) {
+std::string likely_remedy(const Points& places, const Surface& own, const NamedMesh& other, Space turning) {
     constexpr Eigen::Index most = 64;
     const Points some = places.topRows(std::min(places.rows(), most));
-    if (nearly_all(near_flags(some, other)))
-        return fmt::format("they lie on the {}, so the two sides seem to be exchanged", other_name);
+    if (other.mesh != nullptr && nearly_all(near_flags(some, Surface(*other.mesh))))
+        return fmt::format("they lie on the {}, so the two sides seem to be exchanged", other.name);
     for (const Cause& cause : causes())
         if (const Points mended = some * cause.undo.transpose();
             diagonal(mended) > far_away * own.diagonal() && nearly_all(near_flags(mended, own))) // not all in one spot
-            return fmt::format("they would lie on it if one would {}; do that to the file", cause.remedy);
+            return fmt::format("they would lie on it if one would {}; {}", cause.remedy,
+                               cause.undo == Eigen::Vector3d(-1, -1, 1).asDiagonal().toDenseMatrix()
+                                   ? fmt::format("do that to the file, or give --markers-system {}", name_of(turning))
+                                   : "do that to the file");
     return "see whether they belong to this model, in this place";
-}
-
-void note_side(const std::vector<MarkerPair>& pairs, Point MarkerPair::*side, const char* name, const Surface& own,
-               const Surface& other, const char* other_name, MarkerDistances& result) {
-    Points places(static_cast<Eigen::Index>(pairs.size()), 3);
-    for (std::size_t i = 0; i < pairs.size(); ++i) places.row(static_cast<Eigen::Index>(i)) = pairs[i].*side;
-    const std::vector<char> near = near_flags(places, own);
-    std::vector<std::string> names;
-    double farthest = 0;
-    std::size_t far_off = 0;
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-        if (near[i] != 0) continue;
-        const double distance = own.distance(places.row(static_cast<Eigen::Index>(i)));
-        farthest = std::max(farthest, distance);
-        far_off += distance > elsewhere ? 1 : 0;
-        if (names.size() < 5) names.push_back(pairs[i].name);
-    }
-    if (names.empty()) return;
-    const auto far_count = std::count(near.begin(), near.end(), 0);
-    const bool few = 2 * far_count < std::ssize(near); // a wrong unit or axis moves most of them
-    const std::string remedy =
-        few ? "see whether they are where they should be" : likely_remedy(places, own, other, other_name);
-    result.elsewhere |= 2 * far_off > pairs.size();
-    result.notes.push_back(
-        fmt::format("{} of {} markers lie further from the {} than 5 % of its diagonal, up to {:.3g} % ({}{}): {}",
-                    far_count, pairs.size(), name, 100 * farthest, fmt::join(names, ", "),
-                    far_count > static_cast<std::ptrdiff_t>(names.size()) ? ", ..." : "", remedy));
 }
 
 } // namespace
 
-MarkerDistances marker_distances(const std::vector<MarkerPair>& pairs, const Mesh& source, const Mesh& target) {
+MarkerDistances marker_distances(const Points& places, const std::vector<std::string>& names, const NamedMesh& own,
+                                 const NamedMesh& other, Space turning, std::string_view what) {
     MarkerDistances result;
-    if (pairs.empty() || source.triangles.rows() == 0 || target.triangles.rows() == 0) return result;
-    const Surface on_source(source), on_target(target);
-    note_side(pairs, &MarkerPair::source, "source", on_source, on_target, "target", result);
-    note_side(pairs, &MarkerPair::target, "target", on_target, on_source, "source", result);
+    if (names.empty() || own.mesh->triangles.rows() == 0) return result;
+    const Surface surface(*own.mesh);
+    const std::vector<char> near = near_flags(places, surface);
+    double farthest = 0;
+    std::size_t far_off = 0;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (near[i] != 0) continue;
+        const double distance = surface.distance(places.row(static_cast<Eigen::Index>(i)));
+        farthest = std::max(farthest, distance);
+        far_off += distance > elsewhere ? 1 : 0;
+        result.far_names.push_back(names[i]);
+    }
+    const std::size_t count = result.far_names.size();
+    if (count == 0) return result;
+    constexpr std::size_t most = 5;
+    const bool few = 2 * count < names.size(); // a wrong unit or axis moves most of them
+    const std::string remedy =
+        few ? "see whether they are where they should be" : likely_remedy(places, surface, other, turning);
+    result.elsewhere = 2 * far_off > names.size();
+    result.note = fmt::format(
+        "{} of {} {} lie further from the {} than 5 % of its diagonal, up to {:.3g} % ({}{}): {}", count, names.size(),
+        what, own.name, 100 * farthest,
+        fmt::join(result.far_names.begin(), result.far_names.begin() + std::ptrdiff_t(std::min(most, count)), ", "),
+        count > most ? ", ..." : "", remedy);
     return result;
+}
+
+bool lie_on(const Points& points, const Mesh& mesh) {
+    return points.rows() > 0 && mesh.triangles.rows() > 0 && nearly_all(near_flags(points, Surface(mesh)));
 }
 
 } // namespace meshtween

@@ -2,19 +2,33 @@
 #pragma once
 
 #include "meshtween/core/mesh.h"
-#include "meshtween/io/markers.h"
+#include "meshtween/io/space.h"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace meshtween {
 
-// Sentences about markers that lie further from their mesh than 5 % of its diagonal, with the likely cause: the cause
-// whose undoing brings them back.
+// The markers of one side that lie further from their mesh than 5 % of its diagonal.
 struct MarkerDistances {
-    std::vector<std::string> notes;
-    bool elsewhere = false; // on a side most lie further than a quarter of the diagonal: they are not of this model
+    std::string note;                   // a sentence with the likely cause, whose undoing brings them back; or empty
+    std::vector<std::string> far_names; // of those markers
+    bool elsewhere = false;             // most lie further than a quarter of the diagonal: they are not of this model
 };
-MarkerDistances marker_distances(const std::vector<MarkerPair>& pairs, const Mesh& source, const Mesh& target);
+
+// A mesh as messages name it: "source".
+struct NamedMesh {
+    const Mesh* mesh = nullptr;
+    std::string name;
+};
+
+// `other`: the other side's mesh, for markers that lie on it instead; none where there is one side. `turning`: the
+// system to offer where the signs of x and y are wrong.
+MarkerDistances marker_distances(const Points& places, const std::vector<std::string>& names, const NamedMesh& own,
+                                 const NamedMesh& other, Space turning, std::string_view what = "markers");
+
+// Whether nearly all of the points are within 5 % of the diagonal; false for none.
+bool lie_on(const Points& points, const Mesh& mesh);
 
 } // namespace meshtween

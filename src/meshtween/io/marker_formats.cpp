@@ -1,7 +1,10 @@
-// The landmark files of other programs: MeshLab's picked points, 3D Slicer's markups (fcsv, mrk.json), Wrap's points on
-// triangles, IDAV Landmark's pts.
+// The marker files of other programs: MeshLab's picked points, 3D Slicer's markups (fcsv, mrk.json), Wrap's points on
+// triangles, IDAV Landmark's pts, meshes of vertices alone.
+#include "meshtween/io/formats.h"
 #include "meshtween/io/marker_files.h"
+#include "meshtween/io/mesh_file.h"
 #include "meshtween/io/output.h"
+#include "meshtween/io/sheet.h"
 #include "meshtween/io/text.h"
 
 #include <fmt/format.h>
@@ -42,19 +45,21 @@ MarkerPlace wrap_place(const ordered_json& entry, const std::filesystem::path& p
 }
 
 MarkerFile wrap_points(const ordered_json& root, const std::filesystem::path& path) {
-    MarkerFile file{{}, 1};
+    MarkerFile file;
+    file.sides = 1;
     std::size_t number = 0;
     for (const auto& [key, entry] : root.items()) {
         const std::string where = root.is_object() ? fmt::format("'{}'", shown(key)) : fmt::format("entry {}", number);
         ++number;
-        file.rows.push_back({root.is_object() ? key : std::string(), where, {wrap_place(entry, path, where)}});
+        const MarkerPlace place = entry.is_null() ? MarkerPlace() : wrap_place(entry, path, where);
+        file.rows.push_back({root.is_object() ? key : std::string(), where, {place}});
     }
     return file;
 }
 
 MarkerPlace slicer_place(const ordered_json& point, const std::filesystem::path& path, const std::string& where) {
     const auto status = point.find("positionStatus");
-    if (status != point.end() && *status != "defined") return {};
+    if (status != point.end() && *status != "defined" && *status != "preview") return {};
     const auto position = point.find("position");
     if (position == point.end() || position->is_null()) return {};
     Point result;
@@ -66,18 +71,41 @@ MarkerPlace slicer_place(const ordered_json& point, const std::filesystem::path&
     return result;
 }
 
+// Slicer's default is LPS.
+Space slicer_space(const ordered_json& markup, MarkerFile& file) {
+    const auto entry = markup.find("coordinateSystem");
+    if (entry == markup.end()) return Space::lps;
+    const std::string word = entry->is_string() ? entry->get<std::string>() : entry->dump();
+    const Space space = space_named(word);
+    if (space == Space::unknown)
+        file.notes.push_back(
+            fmt::format("its system of coordinates, '{}', is neither RAS nor LPS and is not obeyed", shown(word)));
+    return space;
+}
+
+void turn(MarkerPlace& place) {
+    if (auto* point = std::get_if<Point>(&place)) *point = Point(-(*point)[0], -(*point)[1], (*point)[2]);
+}
+
 MarkerFile slicer_markups(const ordered_json& root, const std::filesystem::path& path) {
-    MarkerFile file{{}, 1};
+    MarkerFile file;
+    file.sides = 1;
     for (const ordered_json& markup : root["markups"]) {
+        if (!markup.is_object()) bad_file(path, "an entry of its markups is no object");
         const auto points = markup.find("controlPoints");
         if (points == markup.end()) continue;
+        if (!points->is_array()) bad_file(path, "its controlPoints are no list");
+        const Space space = slicer_space(markup, file);
+        if (file.rows.empty()) file.space = space;
         for (const ordered_json& point : *points) {
             const std::string where = fmt::format("control point {}", file.rows.size());
             if (!point.is_object()) bad_entry(path, where, "is no object");
             const auto label = point.find("label");
+            MarkerPlace place = slicer_place(point, path, where);
+            if (space != Space::unknown && file.space != Space::unknown && space != file.space) turn(place);
             file.rows.push_back({label != point.end() && label->is_string() ? label->get<std::string>() : std::string(),
                                  where,
-                                 {slicer_place(point, path, where)}});
+                                 {place}});
         }
     }
     return file;
@@ -102,7 +130,8 @@ MarkerFile read_picked_points(std::string_view bytes, const std::filesystem::pat
         bad_file(path,
                  fmt::format("is no whole list of picked points ({} at byte {}); it is truncated or of another format",
                              result ? "no PickedPoints" : result.description(), result.offset));
-    MarkerFile file{{}, 1};
+    MarkerFile file;
+    file.sides = 1;
     for (const pugi::xml_node& node : list.children("point")) {
         const std::string where = fmt::format("point {}", file.rows.size());
         MarkerRow row{node.attribute("name").value(), where, {MarkerPlace()}};
@@ -114,30 +143,62 @@ MarkerFile read_picked_points(std::string_view bytes, const std::filesystem::pat
     return file;
 }
 
+namespace {
+
+// What a line "# CoordinateSystem = LPS" says after its sign of equality.
+std::string value_of(std::string_view line) {
+    const std::size_t equals = line.find('=');
+    const std::size_t first = line.find_first_not_of(" \t", equals + 1);
+    return first == std::string_view::npos
+               ? ""
+               : std::string(line.substr(first, line.find_last_not_of(" \t\r") + 1 - first));
+}
+
+// The columns that Slicer 5 writes after those that its header names: the position's status, and one more.
+std::size_t status_column(const std::vector<std::string>& columns) {
+    const auto named = std::find(columns.begin(), columns.end(), "positionStatus");
+    return static_cast<std::size_t>(named - columns.begin()); // the first after the named ones where it is none of them
+}
+
+} // namespace
+
 MarkerFile read_slicer_fcsv(std::string_view bytes, const std::filesystem::path& path) {
-    std::vector<std::string> columns{"id", "x", "y", "z", "ow", "ox", "oy", "oz", "vis", "sel", "lock", "label"};
+    std::vector<std::string> columns{"id", "x",   "y",   "z",    "ow",    "ox",   "oy",
+                                     "oz", "vis", "sel", "lock", "label", "desc", "associatedNodeID"};
     const auto column = [&](std::string_view name) {
         return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) - columns.begin());
     };
-    MarkerFile file{{}, 1};
+    MarkerFile file;
+    file.sides = 1;
     Text text(bytes, path);
     while (text.next_line()) {
         const std::string_view line = text.line();
-        constexpr std::string_view heading = "# columns =";
-        if (line.substr(0, heading.size()) == heading) columns = cells_of(line.substr(heading.size()));
-        if (line.find_first_not_of(" \t\r") == std::string_view::npos || line[0] == '#') continue;
-        const std::vector<std::string> cells = cells_of(line);
-        const auto cell = [&](std::string_view name) {
-            return column(name) < cells.size() ? cells[column(name)] : std::string();
-        };
-        Point point;
-        for (int k = 0; k < 3; ++k) {
-            const std::string name(1, "xyz"[k]);
-            point[k] = text.finite_from(cell(name), name);
+        constexpr std::string_view heading = "# columns =", system = "# CoordinateSystem =";
+        if (line.substr(0, heading.size()) == heading) columns = cells_of(line.substr(heading.size()), ',');
+        if (line.substr(0, system.size()) == system) {
+            file.space = space_named(value_of(line));
+            if (file.space == Space::unknown)
+                file.notes.push_back(fmt::format("its system of coordinates, '{}', is neither RAS nor LPS and is not "
+                                                 "obeyed",
+                                                 shown(value_of(line))));
         }
-        file.rows.push_back({cell("label").empty() ? cell("id") : cell("label"),
-                             fmt::format("line {}", text.line_number()),
-                             {MarkerPlace(point)}});
+        if (line.find_first_not_of(" \t\r") == std::string_view::npos || line[0] == '#') continue;
+        const std::vector<std::string> cells = cells_of(line, ',');
+        const auto cell = [&](std::size_t k) { return k < cells.size() ? cells[k] : std::string(); };
+        const std::string label = cell(column("label")), status = cell(status_column(columns));
+        // vtkMRMLMarkupsNode: 0 undefined, 1 preview, 2 defined, 3 missing
+        MarkerPlace place;
+        const std::array<std::string, 3> numbers{cell(column("x")), cell(column("y")), cell(column("z"))};
+        const bool unset = status == "0" || status == "3" ||
+                           (cells.size() > 3 && std::all_of(numbers.begin(), numbers.end(), is_missing));
+        if (!unset) {
+            Point point;
+            for (std::size_t k = 0; k < 3; ++k)
+                point[static_cast<Eigen::Index>(k)] = text.finite_from(numbers[k], std::string(1, "xyz"[k]));
+            place = point;
+        }
+        file.rows.push_back(
+            {label.empty() ? cell(column("id")) : label, fmt::format("line {}", text.line_number()), {place}});
     }
     return file;
 }
@@ -162,7 +223,8 @@ MarkerFile read_landmark_pts(std::string_view bytes, const std::filesystem::path
     text.next_line();
     text.next_line();
     const long long count = text.integer("the number of landmarks");
-    MarkerFile file{{}, 1};
+    MarkerFile file;
+    file.sides = 1;
     while (text.next_line()) {
         const std::string name(text.word());
         if (name.empty()) continue;
@@ -178,15 +240,62 @@ MarkerFile read_landmark_pts(std::string_view bytes, const std::filesystem::path
     return file;
 }
 
+MarkerFile read_point_cloud(std::string_view bytes, const std::filesystem::path& path) {
+    const PolygonMesh mesh = lower_extension(path) == ".ply" ? read_ply(bytes, path) : read_obj(bytes, path);
+    if (!mesh.ends.empty())
+        bad_file(path, fmt::format("is a mesh of {} faces, not a list of points; landmarks are its vertices where it "
+                                   "has no faces",
+                                   mesh.ends.size()));
+    MarkerFile file;
+    file.sides = 1;
+    for (std::size_t i = 0; i + 2 < mesh.coordinates.size(); i += 3) {
+        const Point point(mesh.coordinates[i], mesh.coordinates[i + 1], mesh.coordinates[i + 2]);
+        const std::string where = fmt::format("vertex {}", i / 3);
+        const bool missing = point.array().isNaN().all();
+        if (!missing && !point.allFinite()) bad_entry(path, where, "is not finite");
+        file.rows.push_back({"", where, {missing ? MarkerPlace() : MarkerPlace(point)}});
+    }
+    file.space = space_in_header(bytes, lower_extension(path));
+    return file;
+}
+
+namespace {
+
+bool begins_with_any(std::string_view bytes, std::initializer_list<std::string_view> starts) {
+    return std::any_of(starts.begin(), starts.end(), [&](std::string_view start) { return bytes.starts_with(start); });
+}
+
+// Formats that share an extension, or have none of their own, by what they hold.
+MarkerFile read_by_contents(std::string_view bytes, const std::filesystem::path& path) {
+    std::string start(bytes.substr(
+        bytes.find_first_not_of(" \t\r\n") == std::string_view::npos ? 0 : bytes.find_first_not_of(" \t\r\n"), 4096));
+    if (begins_with_any(start, {"Version "})) return read_landmark_pts(bytes, path);
+    if (begins_with_any(start, {"# AmiraMesh", "# Amira", "# Avizo", "# HyperMesh"})) return read_amira(bytes, path);
+    std::transform(start.begin(), start.end(), start.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (begins_with_any(start, {"lm=", "lm3="})) return read_tps(bytes, path);
+    if (start.find("[individuals]") != std::string::npos || start.find("[rawpoints]") != std::string::npos)
+        return read_morphologika(bytes, path);
+    if (start.find(" dim=") != std::string::npos) return read_nts(bytes, path);
+    return read_marker_table(bytes, path);
+}
+
+} // namespace
+
 MarkerFile read_marker_file(const std::filesystem::path& path) {
-    const std::string bytes = read_whole(path), extension = lower_extension(path);
+    std::string bytes = read_whole(path);
+    const std::string extension = lower_extension(path);
     if (bytes.empty()) bad_file(path, "the file is empty; it should hold markers");
+    if (extension == ".ply" || extension == ".obj") return read_point_cloud(bytes, path);
+    if (extension != ".pp") bytes = plain_text(std::move(bytes)); // XML says its own encoding
     if (bytes.find('\0') != std::string::npos) bad_file(path, "is no text; it is damaged or of another format");
     if (extension == ".pp") return read_picked_points(bytes, path);
     if (extension == ".json") return read_marker_json(bytes, path);
     if (extension == ".fcsv") return read_slicer_fcsv(bytes, path);
-    if (bytes.compare(0, 7, "Version") == 0) return read_landmark_pts(bytes, path);
-    return read_marker_table(bytes, path);
+    if (extension == ".tps") return read_tps(bytes, path);
+    if (extension == ".dta" || extension == ".nts") return read_nts(bytes, path);
+    if (extension == ".landmarkascii" || extension == ".am") return read_amira(bytes, path);
+    return read_by_contents(bytes, path);
 }
 
 } // namespace meshtween

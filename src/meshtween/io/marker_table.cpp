@@ -1,7 +1,9 @@
-// Rows of cells: our own CSV and the bare lists of other programs.
+// Rows of cells: our own CSV and the tables and bare lists of other programs.
+#include "meshtween/io/marker_columns.h"
 #include "meshtween/io/marker_files.h"
-#include "meshtween/io/markers.h"
+#include "meshtween/io/marker_write.h"
 #include "meshtween/io/output.h"
+#include "meshtween/io/sheet.h"
 #include "meshtween/io/text.h"
 #include "meshtween/io/text_out.h"
 
@@ -12,69 +14,49 @@
 namespace meshtween {
 namespace {
 
-bool is_number(const std::string& cell) {
-    double ignored = 0;
-    return parse(cell, ignored);
+MarkerColumns columns_of(const Sheet& sheet, const std::filesystem::path& path) {
+    if (!sheet.header.empty())
+        if (auto named = columns_by_name(sheet.header)) return *named;
+    const SheetRow& first = sheet.rows[0];
+    if (auto counted = columns_by_count(first.cells.size(), !is_number(first.cells[0]))) return *counted;
+    bad_file(path, fmt::format("line {}: a row of {} cells is none of name,sx,sy,sz,tx,ty,tz or name,x,y,z or x,y,z or "
+                               "two vertex indices or one; a header that names the columns x, y and z would do",
+                               first.line, first.cells.size()));
 }
 
-bool is_blank(const std::string& cell) {
-    double value = 0;
-    return cell.empty() || (parse(cell, value) && std::isnan(value));
-}
-
-// How many cells a row has: a name or none, then one place or two, each a point (3 cells) or a vertex's index (1).
-struct Layout {
-    std::size_t name = 0, sides = 0, cells_each = 0;
-    std::size_t width() const { return name + sides * cells_each; }
-};
-
-Layout layout_of(const std::vector<std::string>& cells, const Text& text) {
-    const bool named = !is_number(cells[0]);
-    switch (cells.size()) {
-    case 7:
-        return {1, 2, 3};
-    case 6:
-        return {0, 2, 3};
-    case 4:
-        return {1, 1, 3};
-    case 3:
-        return named ? Layout{1, 2, 1} : Layout{0, 1, 3};
-    case 2:
-        return named ? Layout{1, 1, 1} : Layout{0, 2, 1};
-    case 1:
-        return {0, 1, 1};
-    default:
-        text.fail(fmt::format("a row of {} cells is none of name,sx,sy,sz,tx,ty,tz or name,x,y,z or x,y,z or two "
-                              "vertex indices or one",
-                              cells.size()));
+MarkerPlace place_of(const SheetRow& row, const PlaceColumns& columns, const Text& text) {
+    if (columns.indexed) {
+        const std::string& cell = row.cells[columns.index];
+        if (is_missing(cell)) return {};
+        return text.integer_from(cell, "a vertex's index");
     }
-}
-
-MarkerPlace place_of(const std::string* cells, const Layout& layout, const Text& text) {
-    if (std::all_of(cells, cells + layout.cells_each, is_blank)) return {};
-    if (layout.cells_each == 1) return text.integer_from(cells[0], "a vertex's index");
+    std::array<std::string_view, 3> cells;
+    for (std::size_t k = 0; k < 3; ++k) cells[k] = row.cells[columns.axes[k]];
+    if (std::all_of(cells.begin(), cells.end(), is_missing)) return {};
     Point point;
-    for (int k = 0; k < 3; ++k) point[k] = text.finite_from(cells[k], std::string(1, "xyz"[k]));
+    for (std::size_t k = 0; k < 3; ++k)
+        point[static_cast<Eigen::Index>(k)] = text.finite_from(cells[k], std::string(1, "xyz"[k]));
     return point;
 }
 
-bool is_comment(std::string_view line) {
-    const std::size_t first = line.find_first_not_of(" \t\r");
-    return first == std::string_view::npos || line[first] == '#';
+std::string where(const SheetRow& row) {
+    return fmt::format("line {}", row.line);
 }
 
-// A row of words alone, before any other, is a header.
-bool is_header(const std::vector<std::string>& cells) {
-    return cells.size() > 1 && std::none_of(cells.begin(), cells.end(),
-                                            [](const std::string& cell) { return cell.empty() || is_number(cell); });
+// A row is a specimen, as in tables for statistics: the landmarks lie beside each other.
+void add_specimen(MarkerFile& file, const SheetRow& row, const MarkerColumns& columns, const Text& text) {
+    Specimen specimen{columns.name ? row.cells[*columns.name] : "", {}};
+    for (const PlaceColumns& place : columns.places)
+        specimen.rows.push_back({place.name, where(row), {place_of(row, place, text)}});
+    file.specimens.push_back(std::move(specimen));
 }
 
-std::string quoted(std::string name) {
-    std::replace(name.begin(), name.end(), '\n', ' ');
-    if (name.find_first_of("\",;\t# ") == std::string::npos) return name;
-    std::string result = "\"";
-    for (const char c : name) result += c == '"' ? "\"\"" : std::string(1, c);
-    return result + '"';
+void add_row(MarkerFile& file, const SheetRow& row, const MarkerColumns& columns, const Text& text) {
+    MarkerRow marker{columns.name ? row.cells[*columns.name] : "", where(row), {}};
+    const bool undefined = columns.defined && *columns.defined < row.cells.size() && row.cells[*columns.defined] == "0";
+    for (const PlaceColumns& place : columns.places)
+        marker.places.push_back(undefined ? MarkerPlace() : place_of(row, place, text));
+    file.rows.push_back(std::move(marker));
 }
 
 } // namespace
@@ -115,57 +97,54 @@ std::vector<std::string> cells_of(std::string_view line) {
 }
 
 MarkerFile read_marker_table(std::string_view bytes, const std::filesystem::path& path) {
+    const Sheet sheet = read_sheet(bytes, path);
     MarkerFile file;
-    Layout layout;
-    Text text(bytes, path);
-    for (bool first = true; text.next_line();) {
-        if (is_comment(text.line())) continue;
-        std::vector<std::string> cells = cells_of(text.line());
-        const bool header = first && is_header(cells);
-        first = false;
-        if (header) continue;
-        if (file.rows.empty()) layout = layout_of(cells, text);
-        if (cells.size() == layout.width() + 1 && cells.back().empty()) cells.pop_back();
-        if (cells.size() != layout.width())
+    if (sheet.rows.empty()) return file;
+    const MarkerColumns columns = columns_of(sheet, path);
+    const std::size_t most = sheet.header.size() > columns.width ? SIZE_MAX : columns.width;
+    file.space = columns.space;
+    file.notes = sheet.notes;
+    file.notes.insert(file.notes.end(), columns.notes.begin(), columns.notes.end());
+    for (SheetRow row : sheet.rows) {
+        const Text text({}, path, row.line + 1); // messages name the row's line
+        while (row.cells.size() > columns.width && row.cells.back().empty()) row.cells.pop_back();
+        if (row.cells.size() < columns.width || row.cells.size() > most)
             text.fail(fmt::format("this row has {} cells, those before it {}; the file is truncated or damaged",
-                                  cells.size(), layout.width()));
-        MarkerRow row;
-        if (layout.name == 1) row.name = cells[0];
-        row.where = fmt::format("line {}", text.line_number());
-        for (std::size_t side = 0; side < layout.sides; ++side)
-            row.places.push_back(place_of(&cells[layout.name + side * layout.cells_each], layout, text));
-        file.rows.push_back(std::move(row));
-        file.sides = layout.sides;
+                                  row.cells.size(), columns.width));
+        if (columns.places.size() > 2)
+            add_specimen(file, row, columns, text);
+        else
+            add_row(file, row, columns, text);
     }
+    file.sides = std::min<std::size_t>(columns.places.size(), 2);
+    if (columns.places.size() > 2) file.sides = 1;
     return file;
 }
 
 void write_marker_pairs(const std::vector<MarkerPair>& pairs, const std::filesystem::path& path) {
-    write_whole(path, [&](std::ostream& stream) {
-        TextOut out(stream);
-        out.put("name,sx,sy,sz,tx,ty,tz\n");
-        for (const MarkerPair& pair : pairs) {
-            const Point &s = pair.source, &t = pair.target;
-            out.put("{},{},{},{},{},{},{}\n", quoted(pair.name), s[0], s[1], s[2], t[0], t[1], t[2]);
-        }
-    });
+    std::vector<PartialPair> both;
+    for (const MarkerPair& pair : pairs) both.push_back({pair.name, pair.source, pair.target});
+    write_marker_csv(both, path);
 }
 
 Points read_points(const std::filesystem::path& path) {
-    const std::string bytes = read_whole(path);
+    const std::string bytes = plain_text(read_whole(path));
     if (bytes.empty()) bad_file(path, "the file is empty");
-    std::vector<double> values;
-    Text text(bytes, path);
-    for (bool first = true; text.next_line();) {
-        if (is_comment(text.line())) continue;
-        const std::vector<std::string> cells = cells_of(text.line());
-        const bool header = first && is_header(cells);
-        first = false;
-        if (header) continue;
-        if (cells.size() != 3) text.fail(fmt::format("a row x,y,z has three cells, this has {}", cells.size()));
-        for (std::size_t k = 0; k < 3; ++k) values.push_back(text.finite_from(cells[k], std::string(1, "xyz"[k])));
+    const Sheet sheet = read_sheet(bytes, path);
+    std::optional<MarkerColumns> columns;
+    if (!sheet.header.empty()) columns = columns_by_name(sheet.header);
+    if (!columns || columns->places.size() != 1) columns = columns_by_count(3, false);
+    Points points(std::ssize(sheet.rows), 3);
+    for (Eigen::Index i = 0; i < points.rows(); ++i) {
+        const SheetRow& row = sheet.rows[static_cast<std::size_t>(i)];
+        const Text text({}, path, row.line + 1);
+        if (row.cells.size() < columns->width || (row.cells.size() > 3 && sheet.header.empty()))
+            text.fail(fmt::format("a row x,y,z has three cells, this has {}", row.cells.size()));
+        for (std::size_t k = 0; k < 3; ++k)
+            points(i, static_cast<Eigen::Index>(k)) =
+                text.finite_from(row.cells[columns->places[0].axes[k]], std::string(1, "xyz"[k]));
     }
-    return Eigen::Map<const Points>(values.data(), static_cast<Eigen::Index>(values.size() / 3), 3);
+    return points;
 }
 
 void write_points(const Points& points, const std::filesystem::path& path) {

@@ -29,6 +29,7 @@ struct Side {
     std::vector<Landmark> points;
     const Mesh* mesh = nullptr;
     std::string specimen;
+    LandmarkNumbers numbers = {};
 };
 using Sides = std::span<const Side>;
 
@@ -89,6 +90,8 @@ void put_table(Sides sides, TextOut& out, char separator) {
     const bool two = sides.size() == 2;
     for (std::size_t side = 0; side < sides.size(); ++side)
         for (const char axis : {'x', 'y', 'z'}) out.put("{}{}{}", separator, two ? (side == 0 ? "s" : "t") : "", axis);
+    const LandmarkNumbers& numbers = sides[0].numbers;
+    if (!numbers.values.empty()) out.put("{}{}", separator, numbers.name);
     out.put("\n");
     for (std::size_t i = 0; i < sides[0].points.size(); ++i) {
         out.put("{}", quoted(sides[0].points[i].name, separator));
@@ -98,6 +101,7 @@ void put_table(Sides sides, TextOut& out, char separator) {
                     out.put("{}{}", separator, (*place)[k]);
                 else
                     out.put("{}", separator);
+        if (!numbers.values.empty()) out.put("{}{}", separator, numbers.values[i]);
         out.put("\n");
     }
 }
@@ -306,7 +310,7 @@ std::vector<std::string> write_sides(const std::vector<Side>& sides, const fs::p
 
 Side side_of(std::span<const PartialPair> pairs, std::optional<Point> PartialPair::*which, const Mesh* mesh,
              const char* otherwise) {
-    Side side{{}, mesh, specimen_name(mesh, otherwise)};
+    Side side{{}, mesh, specimen_name(mesh, otherwise), {}};
     for (const PartialPair& pair : pairs) side.points.push_back({pair.name, pair.*which});
     return side;
 }
@@ -321,8 +325,13 @@ bool holds_both_sides(const fs::path& path) {
     return format_of(path).both_sides;
 }
 
-std::vector<std::string> write_landmarks(std::span<const Landmark> landmarks, const fs::path& path, const Mesh* mesh) {
-    return write_sides({{{landmarks.begin(), landmarks.end()}, mesh, specimen_name(mesh, "landmarks")}}, path);
+bool holds_names(const fs::path& path) {
+    return format_of(path).names;
+}
+
+std::vector<std::string> write_landmarks(std::span<const Landmark> landmarks, const fs::path& path, const Mesh* mesh,
+                                         const LandmarkNumbers& numbers) {
+    return write_sides({{{landmarks.begin(), landmarks.end()}, mesh, specimen_name(mesh, "landmarks"), numbers}}, path);
 }
 
 std::vector<std::string> write_markers(std::span<const PartialPair> pairs, const fs::path& path, const Mesh* source,
@@ -348,6 +357,15 @@ std::vector<std::string> write_markers(std::span<const PartialPair> pairs, const
     for (std::string& note : write_sides({side_of(kept, &PartialPair::target, target, "target")}, target_path))
         notes.push_back(std::move(note));
     return notes;
+}
+
+void write_marker_csv(std::span<const PartialPair> pairs, const fs::path& path) {
+    const std::vector<Side> sides{side_of(pairs, &PartialPair::source, nullptr, ""),
+                                  side_of(pairs, &PartialPair::target, nullptr, "")};
+    write_whole(path, [&](std::ostream& stream) {
+        TextOut out(stream);
+        put_csv(sides, out);
+    });
 }
 
 } // namespace meshtween

@@ -18,6 +18,12 @@ struct PartialPair {
     std::optional<Point> source, target;
 };
 
+// A number for each landmark, which tables hold in a column of their own; none where it is empty.
+struct LandmarkNumbers {
+    std::string name;
+    std::vector<double> values;
+};
+
 // The formats, by the end of a name in any case:
 //   .csv .tsv         name,x,y,z or name,sx,sy,sz,tx,ty,tz; missing: empty cells
 //   .pp               MeshLab's picked points; missing: active="0"
@@ -29,13 +35,14 @@ struct PartialPair {
 // .csv .tsv .dta .tps .txt and .landmarkAscii hold both sides in one file, the others one side a file.
 bool is_marker_format(const std::filesystem::path& path);
 bool holds_both_sides(const std::filesystem::path& path);
+bool holds_names(const std::filesystem::path& path);
 
 // The mesh, where it is known, says the specimen's name and the coordinate system that the headers of .fcsv and
 // .mrk.json name (LPS where the mesh names none, as Slicer takes such a mesh). Wrap's .json cannot do without it. What
 // the format cannot hold is told in the sentences that come back. Throws Error(argument): a format that is not known,
 // that needs the mesh, or that holds one side only.
 std::vector<std::string> write_landmarks(std::span<const Landmark> landmarks, const std::filesystem::path& path,
-                                         const Mesh* mesh = nullptr);
+                                         const Mesh* mesh = nullptr, const LandmarkNumbers& numbers = {});
 std::vector<std::string> write_markers(std::span<const PartialPair> pairs, const std::filesystem::path& path,
                                        const Mesh* source = nullptr, const Mesh* target = nullptr);
 
@@ -44,5 +51,8 @@ std::vector<std::string> write_markers(std::span<const PartialPair> pairs, const
 std::vector<std::string> write_markers(std::span<const PartialPair> pairs, const std::filesystem::path& source_path,
                                        const std::filesystem::path& target_path, const Mesh* source = nullptr,
                                        const Mesh* target = nullptr);
+
+// CSV whatever the name.
+void write_marker_csv(std::span<const PartialPair> pairs, const std::filesystem::path& path);
 
 } // namespace meshtween

@@ -2,7 +2,8 @@
 
 #include "meshtween/geometry/measure.h"
 #include "meshtween/io/marker_distance.h"
-#include "meshtween/io/marker_files.h"
+#include "meshtween/io/marker_names.h"
+#include "meshtween/io/marker_sides.h"
 #include "meshtween/io/text.h"
 
 #include <fmt/format.h>
@@ -17,29 +18,9 @@ namespace meshtween {
 namespace {
 namespace fs = std::filesystem;
 
-// Where a place lies on the mesh; nothing where it is missing.
-std::optional<Point> resolve(const MarkerPlace& place, const Mesh& mesh, const fs::path& path, const MarkerRow& row) {
-    const auto refuse = [&](const char* what, long long index, Eigen::Index count) {
-        bad_file(path,
-                 fmt::format("{}: {} {} is out of range: the mesh has {}, 0 to {}; is this file for another mesh?",
-                             row.where, what, index, count, count - 1));
-    };
-    if (const auto* point = std::get_if<Point>(&place)) return *point;
-    if (const auto* vertex = std::get_if<long long>(&place)) {
-        if (*vertex < 0 || *vertex >= mesh.positions.rows()) refuse("vertex", *vertex, mesh.positions.rows());
-        return mesh.positions.row(static_cast<Eigen::Index>(*vertex));
-    }
-    if (const auto* on_surface = std::get_if<SurfacePoint>(&place)) {
-        if (on_surface->triangle >= mesh.triangles.rows())
-            refuse("triangle", on_surface->triangle, mesh.triangles.rows());
-        return position(mesh.positions, mesh.triangles, *on_surface);
-    }
-    return std::nullopt;
-}
-
-void refuse_repeated_names(const MarkerFile& file, const fs::path& path) {
+void refuse_repeated_names(const std::vector<MarkerRow>& rows, const fs::path& path) {
     std::map<std::string_view, const MarkerRow*> seen;
-    for (const MarkerRow& row : file.rows) {
+    for (const MarkerRow& row : rows) {
         if (row.name.empty()) continue;
         const auto [first, is_new] = seen.emplace(row.name, &row);
         if (!is_new)
@@ -48,8 +29,14 @@ void refuse_repeated_names(const MarkerFile& file, const fs::path& path) {
     }
 }
 
-bool is_named(const MarkerFile& file) {
-    return std::none_of(file.rows.begin(), file.rows.end(), [](const MarkerRow& row) { return row.name.empty(); });
+bool is_named(const MarkerSide& side) {
+    return std::none_of(side.rows.begin(), side.rows.end(), [](const MarkerRow& row) { return row.name.empty(); });
+}
+
+std::vector<std::string> names_of(const MarkerSide& side) {
+    std::vector<std::string> names;
+    for (const MarkerRow& row : side.rows) names.push_back(row.name);
+    return names;
 }
 
 // Collects pairs whose two sides are there, and the names of those left out.
@@ -96,15 +83,15 @@ void settle_coincident(MarkerPairs& markers, const Mesh& source, const Mesh& tar
                                        "move or delete one",
                                        pairs[a].name, pairs[b].name));
         if (repeated[b] == 0)
-            markers.notes.push_back(
-                fmt::format("marker '{}' says the same as '{}' and is left out", pairs[b].name, pairs[a].name));
+            markers.notes.push_back(fmt::format("{}: marker '{}' says the same as '{}' and is left out", path.string(),
+                                                pairs[b].name, pairs[a].name));
         repeated[b] = 1;
     });
     sweep(&MarkerPair::target, near_target, [&](std::size_t a, std::size_t b) {
         if (repeated[a] == 0 && repeated[b] == 0)
-            markers.notes.push_back(fmt::format("markers '{}' and '{}' lie at one place of the target: the surface "
-                                                "between them will be pressed together",
-                                                pairs[a].name, pairs[b].name));
+            markers.notes.push_back(fmt::format("{}: markers '{}' and '{}' lie at one place of the target: the "
+                                                "surface between them will be pressed together",
+                                                path.string(), pairs[a].name, pairs[b].name));
     });
     std::size_t kept = 0;
     for (std::size_t i = 0; i < pairs.size(); ++i)
@@ -115,84 +102,179 @@ void settle_coincident(MarkerPairs& markers, const Mesh& source, const Mesh& tar
     pairs.resize(kept);
 }
 
-MarkerPairs finish(Collector collector, const Mesh& source, const Mesh& target, const fs::path& path) {
+using TwoSides = std::array<MarkerSide, 2>;
+
+// Tells which markers lie off their meshes, each side under its own file; refuses what belongs to other models.
+void add_distances(MarkerPairs& result, const TwoSides& sides) {
+    std::vector<std::string> names, told;
+    for (const MarkerPair& pair : result.pairs) names.push_back(pair.name);
+    const std::array<NamedMesh, 2> meshes{NamedMesh{sides[0].mesh, "source"}, NamedMesh{sides[1].mesh, "target"}};
+    bool elsewhere = false;
+    for (std::size_t k = 0; k < 2; ++k) {
+        Points places(std::ssize(result.pairs), 3);
+        for (Eigen::Index i = 0; i < places.rows(); ++i) {
+            const MarkerPair& pair = result.pairs[static_cast<std::size_t>(i)];
+            places.row(i) = k == 0 ? pair.source : pair.target;
+        }
+        const MarkerDistances far =
+            marker_distances(places, names, meshes[k], meshes[1 - k], system_that_turns(sides[k]));
+        if (far.note.empty()) continue;
+        result.notes.push_back(fmt::format("{}: {}", sides[k].path.string(), far.note));
+        const bool same_file = !told.empty() && sides[0].path == sides[1].path;
+        told.push_back(same_file ? far.note : result.notes.back());
+        elsewhere |= far.elsewhere;
+        for (const std::string& name : far.far_names)
+            if (std::find(result.far_names.begin(), result.far_names.end(), name) == result.far_names.end())
+                result.far_names.push_back(name);
+    }
+    if (elsewhere) throw Error(ErrorKind::file, fmt::format("{}", fmt::join(told, "; and ")));
+}
+
+MarkerPairs finish(Collector collector, const TwoSides& sides, std::vector<std::string> notes) {
     MarkerPairs result = std::move(collector.result);
+    result.notes = std::move(notes);
+    const std::string start = sides[0].path.string() + ": ";
     if (!collector.missing.empty())
-        result.notes.push_back(fmt::format("{} markers have no place on one side and are left out: {}",
+        result.notes.push_back(fmt::format("{}{} markers have no place on one side and are left out: {}", start,
                                            collector.missing.size(), some_of(collector.missing)));
-    settle_coincident(result, source, target, path);
-    MarkerDistances distances = marker_distances(result.pairs, source, target);
-    if (distances.elsewhere) bad_file(path, fmt::format("{}", fmt::join(distances.notes, "; and ")));
-    for (std::string& note : distances.notes) result.notes.push_back(std::move(note));
+    settle_coincident(result, *sides[0].mesh, *sides[1].mesh, sides[0].path);
+    add_distances(result, sides);
     return result;
 }
 
 // Pairs by name; what is on one side only counts as missing.
-Collector pair_by_name(const MarkerFile& a, const MarkerFile& b, const auto& source_place, const auto& target_place,
-                       const fs::path& source_path, const fs::path& target_path) {
-    std::map<std::string_view, const MarkerRow*> others;
-    for (const MarkerRow& row : b.rows) others.emplace(row.name, &row);
+Collector pair_by_name(const TwoSides& sides, std::vector<std::string>& notes) {
+    const auto& [a, b] = sides;
+    const NameMatch match = match_names(names_of(a), names_of(b));
+    if (!match.note.empty()) notes.push_back(fmt::format("{}: {}", b.path.string(), match.note));
+    std::vector<char> met(b.rows.size(), 0);
     Collector collector;
-    for (const MarkerRow& row : a.rows) {
-        const auto other = others.find(row.name);
-        collector.add(row.name, source_place(row), other == others.end() ? std::nullopt : target_place(*other->second));
-        if (other != others.end()) others.erase(other);
+    for (std::size_t i = 0; i < a.rows.size(); ++i) {
+        const std::optional<std::size_t> other = match.of[i];
+        collector.add(a.rows[i].name, resolve(a, a.rows[i]), other ? resolve(b, b.rows[*other]) : std::nullopt);
+        if (other) met[*other] = 1;
     }
-    if (others.size() == b.rows.size() && !a.rows.empty() && !b.rows.empty())
-        bad_file(target_path,
-                 fmt::format("none of its names is in {} ('{}' here, '{}' there); give corresponding markers "
-                             "the same name",
-                             source_path.string(), b.rows[0].name, a.rows[0].name));
-    for (const MarkerRow& row : b.rows)
-        if (others.count(row.name) != 0) collector.missing.push_back(row.name);
+    if (std::count(met.begin(), met.end(), 1) == 0 && !a.rows.empty() && !b.rows.empty())
+        bad_file(b.path, fmt::format("none of its names is in {} ('{}' here, '{}' there); give corresponding markers "
+                                     "the same name",
+                                     a.path.string(), b.rows[0].name, a.rows[0].name));
+    for (std::size_t i = 0; i < met.size(); ++i)
+        if (met[i] == 0) collector.missing.push_back(b.rows[i].name);
     return collector;
+}
+
+Collector pair_by_order(const TwoSides& sides) {
+    const auto& [a, b] = sides;
+    if (a.rows.size() != b.rows.size())
+        bad_file(b.path, fmt::format("holds {} markers, but {} holds {}; without names on both sides their numbers "
+                                     "must agree",
+                                     b.rows.size(), a.path.string(), a.rows.size()));
+    Collector collector;
+    for (std::size_t i = 0; i < a.rows.size(); ++i)
+        collector.add(a.rows[i].name.empty() ? b.rows[i].name : a.rows[i].name, resolve(a, a.rows[i]),
+                      resolve(b, b.rows[i]));
+    return collector;
+}
+
+void add_notes(std::vector<std::string>& notes, const MarkerFile& file, const fs::path& path) {
+    for (const std::string& note : file.notes) notes.push_back(fmt::format("{}: {}", path.string(), note));
+}
+
+// A file of pairs as two sides, row beside row.
+TwoSides split(const MarkerFile& file, const fs::path& path, const Mesh& source, const Mesh& target,
+               std::vector<std::string>& notes) {
+    TwoSides sides{MarkerSide{path, {}, file.space, &source}, MarkerSide{path, {}, file.space, &target}};
+    std::optional<std::size_t> taken;
+    for (std::size_t k = 0; k < 2; ++k) {
+        if (!file.specimens.empty()) {
+            sides[k].rows = choose_specimen(file, path, *sides[k].mesh, k, taken, notes);
+            continue;
+        }
+        for (const MarkerRow& row : file.rows) sides[k].rows.push_back({row.name, row.where, {row.places[k]}});
+    }
+    return sides;
+}
+
+// Whether each side lies on the other's mesh and not on its own.
+bool are_exchanged(const TwoSides& sides) {
+    const auto& [a, b] = sides;
+    return lies_on(a, *b.mesh) && !lies_on(a, *a.mesh) && lies_on(b, *a.mesh) && !lies_on(b, *b.mesh);
 }
 
 } // namespace
 
-MarkerPairs read_marker_pairs(const fs::path& path, const Mesh& source, const Mesh& target) {
+MarkerPairs read_marker_pairs(const fs::path& path, const Mesh& source, const Mesh& target,
+                              const MarkerReading& reading) {
     const MarkerFile file = read_marker_file(path);
-    if (file.sides == 1) bad_file(path, "holds points of one side only; give two files, the source's and the target's");
-    refuse_repeated_names(file, path);
-    Collector collector;
-    for (const MarkerRow& row : file.rows)
-        collector.add(row.name, resolve(row.places[0], source, path, row), resolve(row.places[1], target, path, row));
-    return finish(std::move(collector), source, target, path);
-}
-
-Landmarks read_landmarks(const fs::path& path, const Mesh& mesh) {
-    const MarkerFile file = read_marker_file(path);
-    if (file.sides == 2) bad_file(path, "holds both sides of pairs; a list of points of one side is needed here");
-    refuse_repeated_names(file, path);
-    Landmarks result;
-    for (const MarkerRow& row : file.rows)
-        result.points.push_back({row.name.empty() ? std::to_string(result.points.size() + 1) : row.name,
-                                 resolve(row.places[0], mesh, path, row)});
-    return result;
+    if (file.sides == 1 && file.specimens.size() < 2)
+        bad_file(path, "holds points of one side only; give two files, the source's and the target's");
+    refuse_repeated_names(file.rows, path);
+    std::vector<std::string> notes;
+    add_notes(notes, file, path);
+    TwoSides sides = split(file, path, source, target, notes);
+    settle_systems(sides, reading, notes);
+    return finish(pair_by_order(sides), sides, std::move(notes));
 }
 
 MarkerPairs read_marker_pairs(const fs::path& source_path, const fs::path& target_path, const Mesh& source,
-                              const Mesh& target) {
-    const MarkerFile a = read_marker_file(source_path), b = read_marker_file(target_path);
-    for (const auto& [file, path] : {std::pair(&a, &source_path), std::pair(&b, &target_path)}) {
-        if (file->sides == 2) bad_file(*path, "holds both sides already; give it alone");
-        refuse_repeated_names(*file, *path);
+                              const Mesh& target, const MarkerReading& reading) {
+    const std::array<const fs::path*, 2> paths{&source_path, &target_path};
+    const std::array<const Mesh*, 2> meshes{&source, &target};
+    TwoSides sides;
+    std::vector<std::string> notes;
+    std::optional<std::size_t> taken;
+    for (std::size_t k = 0; k < 2; ++k) {
+        const MarkerFile file = read_marker_file(*paths[k]);
+        if (file.sides == 2) bad_file(*paths[k], "holds both sides already; give it alone");
+        add_notes(notes, file, *paths[k]);
+        if (k == 1 && source_path != target_path) taken.reset();
+        sides[k] = {*paths[k], {}, file.space, meshes[k]};
+        sides[k].rows = choose_specimen(file, *paths[k], *meshes[k], 0, taken, notes);
+        refuse_repeated_names(sides[k].rows, *paths[k]);
     }
-    const auto source_place = [&](const MarkerRow& row) { return resolve(row.places[0], source, source_path, row); };
-    const auto target_place = [&](const MarkerRow& row) { return resolve(row.places[0], target, target_path, row); };
-    if (is_named(a) && is_named(b))
-        return finish(pair_by_name(a, b, source_place, target_place, source_path, target_path), source, target,
-                      source_path);
-    if (a.rows.size() != b.rows.size())
-        bad_file(target_path,
-                 fmt::format("holds {} markers, but {} holds {}; without names on both sides their numbers "
-                             "must agree",
-                             b.rows.size(), source_path.string(), a.rows.size()));
-    Collector collector;
-    for (std::size_t i = 0; i < a.rows.size(); ++i)
-        collector.add(a.rows[i].name.empty() ? b.rows[i].name : a.rows[i].name, source_place(a.rows[i]),
-                      target_place(b.rows[i]));
-    return finish(std::move(collector), source, target, source_path);
+    settle_systems(sides, reading, notes);
+    if (are_exchanged(sides)) {
+        notes.push_back(fmt::format("{} lies on the target and {} on the source: the two files are taken the other way "
+                                    "round",
+                                    source_path.string(), target_path.string()));
+        std::swap(sides[0], sides[1]);
+        std::swap(sides[0].mesh, sides[1].mesh);
+    }
+    const bool named = is_named(sides[0]) && is_named(sides[1]);
+    Collector collector = named ? pair_by_name(sides, notes) : pair_by_order(sides);
+    return finish(std::move(collector), sides, std::move(notes));
+}
+
+Landmarks read_landmarks(const fs::path& path, const Mesh& mesh, const MarkerReading& reading) {
+    const MarkerFile file = read_marker_file(path);
+    if (file.sides == 2) bad_file(path, "holds both sides of pairs; a list of points of one side is needed here");
+    Landmarks result;
+    add_notes(result.notes, file, path);
+    std::optional<std::size_t> taken;
+    std::array<MarkerSide, 1> sides{MarkerSide{path, {}, file.space, &mesh}};
+    MarkerSide& side = sides[0];
+    side.rows = choose_specimen(file, path, mesh, 0, taken, result.notes);
+    refuse_repeated_names(side.rows, path);
+    settle_systems(sides, reading, result.notes);
+    std::vector<std::string> names, missing;
+    Points places(std::ssize(side.rows), 3);
+    for (const MarkerRow& row : side.rows) {
+        const std::string name = row.name.empty() ? std::to_string(result.points.size() + 1) : row.name;
+        result.points.push_back({name, resolve(side, row)});
+        if (const auto& place = result.points.back().position)
+            places.row(std::ssize(names)) = *place, names.push_back(name);
+        else
+            missing.push_back(name);
+    }
+    if (!missing.empty())
+        result.notes.push_back(
+            fmt::format("{}: {} points are missing: {}", path.string(), missing.size(), some_of(missing)));
+    MarkerDistances far = marker_distances(places.topRows(std::ssize(names)), names, {&mesh, "mesh"}, {},
+                                           system_that_turns(side), "points");
+    if (far.elsewhere) bad_file(path, far.note);
+    if (!far.note.empty()) result.notes.push_back(fmt::format("{}: {}", path.string(), far.note));
+    result.far_names = std::move(far.far_names);
+    return result;
 }
 
 } // namespace meshtween

@@ -1,10 +1,16 @@
 #include "meshtween/io/rotation_markers.h"
 
-#include "meshtween/io/marker_files.h"
+#include "meshtween/io/marker_columns.h"
+#include "meshtween/io/marker_distance.h"
+#include "meshtween/io/marker_sides.h"
 #include "meshtween/io/output.h"
+#include "meshtween/io/sheet.h"
 #include "meshtween/io/text.h"
 
-#include <vector>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
 
 namespace meshtween {
 namespace {
@@ -15,30 +21,63 @@ Points as_rows(const std::vector<Point>& points) {
     return rows;
 }
 
+// Which columns hold x, y, z and the role.
+struct Columns {
+    std::array<std::size_t, 3> axes{1, 2, 3};
+    std::size_t role = 4, width = 5;
+    Space space = Space::unknown;
+};
+
+Columns columns_of(const Sheet& sheet) {
+    Columns columns;
+    const auto role = std::find(sheet.header.begin(), sheet.header.end(), "role");
+    if (role == sheet.header.end()) return columns;
+    const auto named = columns_by_name(sheet.header);
+    if (!named || named->places.size() != 1) return columns;
+    columns.axes = named->places[0].axes;
+    columns.space = named->space;
+    columns.role = static_cast<std::size_t>(role - sheet.header.begin());
+    columns.width = std::max(named->width, columns.role + 1);
+    return columns;
+}
+
 } // namespace
 
-RotationMarkers read_rotation_markers(const std::filesystem::path& path) {
-    const std::string bytes = read_whole(path);
-    Text text(bytes, path);
-    std::vector<Point> turn, hold;
-    while (text.next_line()) {
-        const std::string_view first = text.peek();
-        if (first.empty() || first.front() == '#') continue;
-        const std::vector<std::string> cells = cells_of(text.line());
-        if (cells.size() != 5) text.fail(fmt::format("a row of {} cells; name,x,y,z,role has five", cells.size()));
-        if (cells[4] == "role") continue; // the header
+RotationMarkers read_rotation_markers(const std::filesystem::path& path, const Mesh& mesh,
+                                      const MarkerReading& reading) {
+    const Sheet sheet = read_sheet(plain_text(read_whole(path)), path);
+    const Columns columns = columns_of(sheet);
+    std::array<MarkerSide, 1> sides{MarkerSide{path, {}, columns.space, &mesh}};
+    std::vector<bool> turns;
+    for (const SheetRow& row : sheet.rows) {
+        const Text text({}, path, row.line + 1); // messages name the row's line
+        if (row.cells.size() < columns.width || (sheet.header.empty() && row.cells.size() != columns.width))
+            text.fail(fmt::format("a row of {} cells; name,x,y,z,role has five", row.cells.size()));
+        const std::string& role = row.cells[columns.role];
+        if (role != "turn" && role != "hold")
+            text.fail(fmt::format("the role is '{}'; it can be turn or hold", shown(role)));
         Point point;
-        for (int k = 0; k < 3; ++k)
-            point[k] = text.finite_from(cells[static_cast<std::size_t>(k) + 1], std::string(1, "xyz"[k]));
-        if (cells[4] == "turn")
-            turn.push_back(point);
-        else if (cells[4] == "hold")
-            hold.push_back(point);
-        else
-            text.fail(fmt::format("the role is '{}'; it can be turn or hold", shown(cells[4])));
+        for (std::size_t k = 0; k < 3; ++k)
+            point[static_cast<Eigen::Index>(k)] =
+                text.finite_from(row.cells[columns.axes[k]], std::string(1, "xyz"[k]));
+        sides[0].rows.push_back({row.cells[0], fmt::format("line {}", row.line), {point}});
+        turns.push_back(role == "turn");
+    }
+    RotationMarkers markers;
+    settle_systems(sides, reading, markers.notes);
+    std::vector<Point> turn, hold, all;
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < turns.size(); ++i) {
+        all.push_back(std::get<Point>(sides[0].rows[i].places[0]));
+        (turns[i] ? turn : hold).push_back(all.back());
+        names.push_back(sides[0].rows[i].name);
     }
     if (turn.empty()) bad_file(path, "no row has the role turn, so nothing would turn");
-    return {as_rows(turn), as_rows(hold)};
+    const MarkerDistances far = marker_distances(as_rows(all), names, {&mesh, "mesh"}, {}, system_that_turns(sides[0]));
+    if (!far.note.empty()) markers.notes.push_back(fmt::format("{}: {}", path.string(), far.note));
+    markers.turn = as_rows(turn);
+    markers.hold = as_rows(hold);
+    return markers;
 }
 
 } // namespace meshtween

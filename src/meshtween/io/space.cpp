@@ -44,12 +44,15 @@ Space space_named(std::string_view word) {
     return Space::unknown;
 }
 
-Space space_of(const Mesh& mesh) {
-    if (!mesh.file) return Space::unknown;
+Space space_in_header(std::string_view bytes, std::string_view format) {
     constexpr std::string_view key = "space=";
-    const std::string header = lower(header_of(mesh.file->bytes, mesh.file->format));
+    const std::string header = lower(header_of(bytes, format));
     const std::size_t at = header.find(key);
     return at == std::string::npos ? Space::unknown : space_named(header.substr(at + key.size(), 3));
+}
+
+Space space_of(const Mesh& mesh) {
+    return mesh.file ? space_in_header(mesh.file->bytes, mesh.file->format) : Space::unknown;
 }
 
 std::string_view name_of(Space space) {

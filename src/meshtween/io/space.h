@@ -18,6 +18,7 @@ Space space_named(std::string_view word);
 // The system that the mesh's file names in its header, as 3D Slicer writes it ("SPACE=LPS"): in PLY's and OBJ's
 // comments, VTK's title, STL's header. Unknown where the file is silent or the mesh has none.
 Space space_of(const Mesh& mesh);
+Space space_in_header(std::string_view bytes, std::string_view format); // of a mesh's file; format: ".ply"
 
 std::string_view name_of(Space space); // "RAS", "LPS"
 inline Space other(Space space) {

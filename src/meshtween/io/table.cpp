@@ -1,54 +1,42 @@
 #include "meshtween/io/table.h"
 
-#include "meshtween/io/marker_files.h"
 #include "meshtween/io/output.h"
+#include "meshtween/io/sheet.h"
 #include "meshtween/io/text.h"
 #include "meshtween/io/text_out.h"
 
 #include <algorithm>
 
 namespace meshtween {
-namespace {
-
-bool is_header(const std::vector<std::string>& cells) {
-    return std::any_of(cells.begin(), cells.end(), [](const std::string& cell) {
-        double ignored = 0;
-        return !parse(cell, ignored);
-    });
-}
-
-} // namespace
-
 Table read_table(const std::filesystem::path& path) {
-    const std::string bytes = read_whole(path);
+    const Sheet sheet = read_sheet(plain_text(read_whole(path)), path);
+    if (sheet.rows.empty()) bad_file(path, "holds no rows of numbers");
     Table table;
-    std::vector<double> values;
-    std::size_t columns = 0;
-    long rows = 0;
-    bool numbered = false, first = true;
-    Text text(bytes, path);
-    while (text.next_line()) {
-        if (text.peek().empty() || text.peek().front() == '#') continue;
-        const std::vector<std::string> cells = cells_of(text.line());
-        const bool header = std::exchange(first, false) && is_header(cells);
-        if (columns == 0) columns = cells.size();
-        if (cells.size() != columns)
-            text.fail(fmt::format("{} cells, where the first row has {}", cells.size(), columns));
-        if (header) {
-            numbered = columns > 1 && (cells[0] == "vertex" || cells[0] == "index");
-            table.names.assign(cells.begin() + (numbered ? 1 : 0), cells.end());
-            continue;
-        }
-        if (numbered && text.integer_from(cells[0], "the vertex") != rows)
-            text.fail(fmt::format("vertex {}, where {} should stand: sort the rows and leave none out", shown(cells[0]),
-                                  rows));
-        for (std::size_t k = numbered ? 1 : 0; k < columns; ++k)
-            values.push_back(text.finite_from(cells[k], fmt::format("column {}", k + 1)));
-        ++rows;
+    const std::size_t columns = sheet.rows[0].cells.size();
+    const std::vector<std::string>& header = sheet.header;
+    // The vertices' numbers, or the rows' names that R and pandas write under an empty cell.
+    const bool numbered = columns > 1 && !header.empty() && (header[0] == "vertex" || header[0] == "index"),
+               labelled = columns > 1 && !header.empty() && header[0].empty();
+    const std::size_t first = numbered || labelled ? 1 : 0;
+    if (!header.empty()) {
+        if (header.size() != columns)
+            bad_file(path, fmt::format("line {}: {} cells, where the first row has {}", sheet.rows[0].line, columns,
+                                       header.size()));
+        table.names.assign(header.begin() + static_cast<std::ptrdiff_t>(first), header.end());
     }
-    if (rows == 0) bad_file(path, "holds no rows of numbers");
-    table.values = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-        values.data(), rows, static_cast<Eigen::Index>(columns) - (numbered ? 1 : 0));
+    table.values.resize(std::ssize(sheet.rows), static_cast<Eigen::Index>(columns - first));
+    for (Eigen::Index i = 0; i < table.values.rows(); ++i) {
+        const SheetRow& row = sheet.rows[static_cast<std::size_t>(i)];
+        const Text text({}, path, row.line + 1); // messages name the row's line
+        if (row.cells.size() != columns)
+            text.fail(fmt::format("{} cells, where the first row has {}", row.cells.size(), columns));
+        if (numbered && text.integer_from(row.cells[0], "the vertex") != i)
+            text.fail(fmt::format("vertex {}, where {} should stand: sort the rows and leave none out",
+                                  shown(row.cells[0]), i));
+        for (std::size_t k = first; k < columns; ++k)
+            table.values(i, static_cast<Eigen::Index>(k - first)) =
+                text.finite_from(row.cells[k], fmt::format("column {}", k + 1));
+    }
     return table;
 }
 

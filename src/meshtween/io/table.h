@@ -16,8 +16,8 @@ struct Table {
     Eigen::MatrixXd values;         // rows x columns
 };
 
-// Cells cut at commas, semicolons, tabs or blanks; the first row is a header where a cell of it is no number. A first
-// column headed "vertex" or "index" must count from 0 and is taken away. Throws Error(file) with the line: rows of
+// Any table that read_sheet reads. A first column headed "vertex" or "index" must count from 0 and is taken away, one
+// without a heading holds names and is taken away too. Throws Error(file) with the line: rows of
 // unequal length, a cell that is no finite number, no rows at all.
 Table read_table(const std::filesystem::path& path);
 

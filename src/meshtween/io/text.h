@@ -30,6 +30,10 @@ std::string listed(const std::vector<std::string>& parts);
 // "1 face", "12 faces".
 std::string counted(std::size_t count, std::string_view noun);
 
+// The file as UTF-8 with lines that end in \n: UTF-16 goes by its mark, what is neither is Latin-1, a lone \r ends a
+// line.
+std::string plain_text(std::string bytes);
+
 // Reads all of `word` as a number; false where it is none. Too large becomes infinite, too small zero. Locale plays no
 // part.
 inline bool parse(std::string_view word, double& value) {
