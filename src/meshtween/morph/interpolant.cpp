@@ -51,8 +51,8 @@ struct Sampler {
     bool sample(const std::vector<double>& parameters) {
         for (const double u : parameters) {
             if (known.count(u)) continue;
-            const double planned = std::max<double>(18, static_cast<double>(parameters.size()) + 1);
-            if (!keep_going(progress, static_cast<double>(known.size()) / planned, "in-between shapes")) return false;
+            const auto done = static_cast<double>(known.size()); // how many it takes shows on the way
+            if (!keep_going(progress, done / (done + 9), "in-between shapes")) return false;
             known.emplace(u, morph.at(u));
         }
         return true;
