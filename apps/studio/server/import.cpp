@@ -97,11 +97,13 @@ std::optional<Side> side_by_place(const std::vector<Point>& points, const OpenMe
 ImportedMarkers one_side(const fs::path& file, const MarkerFile& raw, std::optional<Side> side, const OpenMesh& source,
                          const OpenMesh& target) {
     ImportedMarkers result;
-    const bool of_points = std::any_of(raw.rows.begin(), raw.rows.end(), [](const MarkerRow& row) {
-        return std::holds_alternative<Point>(row.places[0]);
-    });
+    const bool of_points =
+        !raw.specimens.empty() || std::any_of(raw.rows.begin(), raw.rows.end(), [](const MarkerRow& row) {
+            return std::holds_alternative<Point>(row.places[0]);
+        });
     const bool given = side.has_value();
-    if (!given && of_points) side = side_by_place(places_of(read_landmarks(file, source.mesh).points), source, target);
+    if (!given && of_points)
+        side = side_by_place(places_of(read_landmarks(file, source.mesh, {.anywhere = true}).points), source, target);
     if (!side) {
         result.ask_side = true;
         return result;
@@ -116,41 +118,13 @@ ImportedMarkers one_side(const fs::path& file, const MarkerFile& raw, std::optio
     return result;
 }
 
-struct TwoFiles {
-    MarkerPairs read;
-    double on_models = -1; // the part that lies where it should; -1 where they cannot be read in this order
-    std::optional<Error> problem;
-};
-
-TwoFiles read_two(const fs::path& a, const fs::path& b, const OpenMesh& source, const OpenMesh& target) {
-    TwoFiles two;
-    try {
-        two.read = read_marker_pairs(a, b, source.mesh, target.mesh);
-        two.on_models = part_on(source, target, two.read);
-    } catch (const Error& error) {
-        two.problem = error;
-    }
-    return two;
-}
-
 ImportedMarkers file_a_side(fs::path a, fs::path b, const OpenMesh& source, const OpenMesh& target) {
     ImportedMarkers result;
-    TwoFiles two = read_two(a, b, source, target);
-    if (two.on_models < 0.5) {
-        TwoFiles swapped = read_two(b, a, source, target);
-        if (swapped.on_models >= 0.9) {
-            two = std::move(swapped);
-            std::swap(a, b);
-            result.notes.push_back(
-                fmt::format("the two files came the other way round: {} lies on the source, {} on the "
-                            "target",
-                            a.filename().string(), b.filename().string()));
-        }
-    }
-    if (two.problem) throw *two.problem;
-    take_pairs(two.read, result);
-    take_rest(read_landmarks(a, source.mesh).points, Side::source, two.read, result);
-    take_rest(read_landmarks(b, target.mesh).points, Side::target, two.read, result);
+    const MarkerPairs read = read_marker_pairs(a, b, source.mesh, target.mesh);
+    if (read.exchanged) std::swap(a, b);
+    take_pairs(read, result);
+    take_rest(read_landmarks(a, source.mesh, {.anywhere = true}).points, Side::source, read, result);
+    take_rest(read_landmarks(b, target.mesh, {.anywhere = true}).points, Side::target, read, result);
     return result;
 }
 
@@ -160,7 +134,7 @@ ImportedMarkers import_markers(const fs::path& file, const fs::path& second, std
                                const OpenMesh& source, const OpenMesh& target) {
     if (!second.empty()) return file_a_side(file, second, source, target);
     const MarkerFile raw = read_marker_file(file);
-    if (raw.sides == 1) return one_side(file, raw, side, source, target);
+    if (raw.sides == 1 && raw.specimens.size() != 2) return one_side(file, raw, side, source, target);
     ImportedMarkers result;
     take_pairs(read_marker_pairs(file, source.mesh, target.mesh), result);
     take_halves(raw, source.mesh, target.mesh, result);

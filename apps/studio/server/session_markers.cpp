@@ -122,7 +122,7 @@ Json Session::marker_warnings() const {
         pairs = complete_pairs(work_->project.markers);
     }
     if (!open.source || !open.target) return Json::array();
-    return marker_distances(pairs, open.source->mesh, open.target->mesh).notes;
+    return far_markers(pairs, open.source->mesh, open.target->mesh);
 }
 
 Pose Session::known_pose(const Open& open) const {

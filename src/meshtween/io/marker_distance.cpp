@@ -117,7 +117,8 @@ std::string likely_remedy(const Points& places, const Surface& own, const NamedM
         if (const Points mended = some * cause.undo.transpose();
             diagonal(mended) > far_away * own.diagonal() && nearly_all(near_flags(mended, own))) // not all in one spot
             return fmt::format("they would lie on it if one would {}; {}", cause.remedy,
-                               cause.undo == Eigen::Vector3d(-1, -1, 1).asDiagonal().toDenseMatrix()
+                               turning != Space::unknown &&
+                                       cause.undo == Eigen::Vector3d(-1, -1, 1).asDiagonal().toDenseMatrix()
                                    ? fmt::format("do that to the file, or give --markers-system {}", name_of(turning))
                                    : "do that to the file");
     return "see whether they belong to this model, in this place";
@@ -153,6 +154,21 @@ MarkerDistances marker_distances(const Points& places, const std::vector<std::st
         fmt::join(result.far_names.begin(), result.far_names.begin() + std::ptrdiff_t(std::min(most, count)), ", "),
         count > most ? ", ..." : "", remedy);
     return result;
+}
+
+std::vector<std::string> far_markers(const std::vector<MarkerPair>& pairs, const Mesh& source, const Mesh& target) {
+    std::vector<std::string> names, notes;
+    Points sources(std::ssize(pairs), 3), targets(std::ssize(pairs), 3);
+    for (const MarkerPair& pair : pairs) {
+        sources.row(std::ssize(names)) = pair.source;
+        targets.row(std::ssize(names)) = pair.target;
+        names.push_back(pair.name);
+    }
+    const NamedMesh a{&source, "source"}, b{&target, "target"};
+    for (MarkerDistances far : {marker_distances(sources, names, a, b, Space::unknown),
+                                marker_distances(targets, names, b, a, Space::unknown)})
+        if (!far.note.empty()) notes.push_back(std::move(far.note));
+    return notes;
 }
 
 bool lie_on(const Points& points, const Mesh& mesh) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "meshtween/core/mesh.h"
+#include "meshtween/io/markers.h"
 #include "meshtween/io/space.h"
 
 #include <string>
@@ -24,9 +25,12 @@ struct NamedMesh {
 };
 
 // `other`: the other side's mesh, for markers that lie on it instead; none where there is one side. `turning`: the
-// system to offer where the signs of x and y are wrong.
+// system to offer where the signs of x and y are wrong; none is offered where it is unknown.
 MarkerDistances marker_distances(const Points& places, const std::vector<std::string>& names, const NamedMesh& own,
                                  const NamedMesh& other, Space turning, std::string_view what = "markers");
+
+// What is told of pairs that are in no file: a sentence for each side where some are far off.
+std::vector<std::string> far_markers(const std::vector<MarkerPair>& pairs, const Mesh& source, const Mesh& target);
 
 // Whether nearly all of the points are within 5 % of the diagonal; false for none.
 bool lie_on(const Points& points, const Mesh& mesh);

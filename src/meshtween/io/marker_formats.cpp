@@ -288,6 +288,7 @@ MarkerFile read_marker_file(const std::filesystem::path& path) {
     if (bytes.empty()) bad_file(path, "the file is empty; it should hold markers");
     if (extension == ".ply" || extension == ".obj") return read_point_cloud(bytes, path);
     if (extension != ".pp") bytes = plain_text(std::move(bytes)); // XML says its own encoding
+    if (bytes.empty()) bad_file(path, "the file is empty; it should hold markers");
     if (bytes.find('\0') != std::string::npos) bad_file(path, "is no text; it is damaged or of another format");
     if (extension == ".pp") return read_picked_points(bytes, path);
     if (extension == ".json") return read_marker_json(bytes, path);

@@ -233,7 +233,8 @@ MarkerPairs read_marker_pairs(const fs::path& source_path, const fs::path& targe
         refuse_repeated_names(sides[k].rows, *paths[k]);
     }
     settle_systems(sides, reading, notes);
-    if (are_exchanged(sides)) {
+    const bool exchanged = are_exchanged(sides);
+    if (exchanged) {
         notes.push_back(fmt::format("{} lies on the target and {} on the source: the two files are taken the other way "
                                     "round",
                                     source_path.string(), target_path.string()));
@@ -242,7 +243,9 @@ MarkerPairs read_marker_pairs(const fs::path& source_path, const fs::path& targe
     }
     const bool named = is_named(sides[0]) && is_named(sides[1]);
     Collector collector = named ? pair_by_name(sides, notes) : pair_by_order(sides);
-    return finish(std::move(collector), sides, std::move(notes));
+    MarkerPairs result = finish(std::move(collector), sides, std::move(notes));
+    result.exchanged = exchanged;
+    return result;
 }
 
 Landmarks read_landmarks(const fs::path& path, const Mesh& mesh, const MarkerReading& reading) {
@@ -271,7 +274,7 @@ Landmarks read_landmarks(const fs::path& path, const Mesh& mesh, const MarkerRea
             fmt::format("{}: {} points are missing: {}", path.string(), missing.size(), some_of(missing)));
     MarkerDistances far = marker_distances(places.topRows(std::ssize(names)), names, {&mesh, "mesh"}, {},
                                            system_that_turns(side), "points");
-    if (far.elsewhere) bad_file(path, far.note);
+    if (far.elsewhere && !reading.anywhere) bad_file(path, far.note);
     if (!far.note.empty()) result.notes.push_back(fmt::format("{}: {}", path.string(), far.note));
     result.far_names = std::move(far.far_names);
     return result;

@@ -24,11 +24,13 @@ struct MarkerPairs {
     std::vector<MarkerPair> pairs;
     std::vector<std::string> notes; // what was left out or looks wrong, a sentence each, for people; it names the file
     std::vector<std::string> far_names; // of pairs that lie off a mesh, as the notes say
+    bool exchanged = false;             // the two files came in the other order
 };
 
 // What the person says about the files: the system that their coordinates are in, over what the files say.
 struct MarkerReading {
     std::array<Space, 2> systems{Space::unknown, Space::unknown}; // the source's file and the target's
+    bool anywhere = false; // points of another model are read too, to find out which model they are of
 };
 
 // One file for both sides. Names pairs by the file's names, else by their number from 1. Index and barycentric formats
