@@ -49,6 +49,12 @@ Mesh load_mesh(const std::string& path, Console& console, Json& described) {
     return mesh;
 }
 
+std::vector<Mesh> load_alike(const std::vector<std::string>& paths, Console& console) {
+    std::vector<Mesh> meshes = read_meshes({paths.begin(), paths.end()});
+    for (std::size_t k = 0; k < meshes.size(); ++k) require_usable(meshes[k], paths[k], console);
+    return meshes;
+}
+
 std::vector<Mesh> load_one_connectivity(const std::vector<std::string>& paths, Console& console) {
     std::vector<Mesh> meshes = read_meshes({paths.begin(), paths.end()});
     const Mesh& first = meshes.front();

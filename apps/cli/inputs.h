@@ -23,6 +23,8 @@ struct Common {
 
 meshtween::Mesh load_mesh(const std::string& path, Console& console); // with warnings about what is unusual
 meshtween::Mesh load_mesh(const std::string& path, Console& console, meshtween::Json& described);
+// Meshes that are meant to be one mesh in several shapes: polygons are cut alike where they can be.
+std::vector<meshtween::Mesh> load_alike(const std::vector<std::string>& paths, Console& console);
 // Meshes of one connectivity, polygons cut alike; throws Error(file) naming the two that differ.
 std::vector<meshtween::Mesh> load_one_connectivity(const std::vector<std::string>& paths, Console& console);
 // None where no file is named. Throws Error(file) for a file without a usable pair.

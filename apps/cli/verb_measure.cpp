@@ -30,8 +30,8 @@ void add_measure(CLI::App& app, const Common& common) {
     add_markers_system(*verb, a->markers_system);
     verb->callback([a, &common] {
         Console console(common.quiet);
-        const Mesh source = load_mesh(a->source, console), fitted = load_mesh(a->fitted, console),
-                   target = load_mesh(a->target, console);
+        const std::vector<Mesh> both = load_alike({a->source, a->fitted}, console);
+        const Mesh &source = both[0], &fitted = both[1], target = load_mesh(a->target, console);
         const Points truth = a->truth.empty() ? Points() : read_points(a->truth);
         MarkerPairs markers;
         if (!a->markers.empty()) markers = load_markers(a->markers, source, target, console, a->markers_system);

@@ -33,9 +33,13 @@ struct Sides {
 
 Sides load_sides(const Arguments& a, Console& console) {
     TwoShapes fitted, target;
-    fitted.fitted = load_mesh(a.fitted, console);
+    if (a.template_mesh.empty()) {
+        fitted.fitted = fitted.rest = load_mesh(a.fitted, console);
+    } else {
+        std::vector<Mesh> both = load_alike({a.template_mesh, a.fitted}, console);
+        fitted.rest = std::move(both[0]), fitted.fitted = std::move(both[1]);
+    }
     target.fitted = target.rest = load_mesh(a.target, console);
-    fitted.rest = a.template_mesh.empty() ? fitted.fitted : load_mesh(a.template_mesh, console);
     if (fitted.rest.positions.rows() != fitted.fitted.positions.rows() ||
         fitted.rest.triangles.rows() != fitted.fitted.triangles.rows() ||
         fitted.rest.triangles != fitted.fitted.triangles)
@@ -123,6 +127,7 @@ void transfer_mesh(const Arguments& a, const std::vector<Output>& outputs, const
         result = std::move(carried);
     }
     result.positions = sides.receiver.rest.positions;
+    if (result.file == receiver.file) result.file = sides.receiver.rest.file;
     tell_written(write_still(result, "what was carried over", {}, outputs, {}, a.writing), console);
 }
 

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <fstream>
+#include <sstream>
 
 namespace {
 
@@ -112,6 +113,53 @@ TEST_F(Verbs, OnSurfaceLeavesEveryVertexOnTheTarget) {
     EXPECT_LT(on["vertex_to_target"]["max"], 1e-5);
     EXPECT_GT(lifted["vertex_to_target"]["mean"], 1e-2) << "else they are lifted";
     EXPECT_LT(lifted["fitted_to_target"]["mean"], on["fitted_to_target"]["mean"]) << "so that the triangles lie on it";
+}
+
+// A cube of quads with all that people choose a template for.
+const std::string cube = "mtllib cube.mtl\n# by hand\no box\nv -1 -1 -1\nv -1 1 -1\nv 1 1 -1\nv 1 -1 -1\nv -1 -1 1\n"
+                         "v -1 1 1\nv 1 1 1\nv 1 -1 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\ng side\nusemtl red\n"
+                         "f 4/4 3/3 2/2 1/1\nf 5/1 6/2 7/3 8/4\ng rest\nusemtl blue\ns 1\nf 1/1 2/2 6/3 5/4\n"
+                         "f 2/1 3/2 7/3 6/4\nf 3/1 4/2 8/3 7/4\nf 4/1 1/2 5/3 8/4\n";
+
+std::string text_of(const std::filesystem::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string without_vertices(const std::string& text) {
+    std::istringstream in(text);
+    std::string result;
+    for (std::string line; std::getline(in, line);)
+        if (line.substr(0, 2) != "v ") result += line + "\n";
+    return result;
+}
+
+TEST_F(Verbs, AFitKeepsWhatTheTemplateHas) {
+    std::filesystem::create_directory(folder_ / "out");
+    std::filesystem::create_directory(folder_ / "referring");
+    std::ofstream(folder_ / "cube.obj") << cube;
+    std::ofstream(folder_ / "cube.mtl") << "newmtl red\nmap_Kd red.png\nnewmtl blue\nKd 0 0 1\n";
+    std::ofstream(folder_ / "red.png") << "picture";
+    const Ran ran = run({"fit", file("cube.obj"), file("cube.obj"), "-o", file("out/fitted.obj"), "-o",
+                         file("out/fitted.ply"), "-o", file("out/fitted.stl")});
+    EXPECT_EQ(without_vertices(text_of(folder_ / "out" / "fitted.obj")), without_vertices(cube));
+    EXPECT_EQ(text_of(folder_ / "out" / "red.png"), "picture");
+    EXPECT_NE(ran.err.find("fitted.ply: left behind 1 object, 2 groups, 1 smoothing group and 2 materials; write .obj"),
+              std::string::npos)
+        << ran.err;
+    EXPECT_EQ(ran.err.find("fitted.obj: left"), std::string::npos) << ran.err;
+    run({"tween", file("cube.obj"), file("out/fitted.ply"), "--at", "0.5", "-o", file("referring/half.obj"),
+         "--textures", "refer"});
+    EXPECT_EQ(without_vertices(text_of(folder_ / "referring" / "half.obj")),
+              without_vertices("mtllib ../cube.mtl" + cube.substr(15)));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "referring" / "cube.mtl"));
+    // A triangulated copy is the same mesh still.
+    meshtween::Mesh triangles = meshtween::read_mesh(folder_ / "cube.obj");
+    triangles.file = nullptr;
+    meshtween::write_mesh(triangles, folder_ / "triangles.ply");
+    run({"measure", file("triangles.ply"), file("out/fitted.obj"), file("cube.obj")});
+    run({"measure", file("out/fitted.obj"), file("triangles.ply"), file("cube.obj")});
+    run({"blend", file("triangles.ply"), file("cube.obj"), "-o", file("mean.obj")});
 }
 
 TEST_F(Verbs, RefinedSourcesServeTween) {

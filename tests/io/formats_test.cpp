@@ -82,11 +82,21 @@ TEST_F(Formats, TextureCoordinatesAreKeptWithAndWithoutSeams) {
         }
 }
 
-TEST_F(Formats, ColoursThatAreNoBytesStayInPly) {
+// Other programs know colours by their bytes, and tell fractions from bytes by their point.
+TEST_F(Formats, ColoursAreWrittenAsOtherProgramsReadThem) {
     Mesh mesh = unit_cube();
     mesh.colors = Colors::Constant(8, 4, 0.3F);
-    EXPECT_EQ(again(mesh, "a.ply").colors, mesh.colors);
-    EXPECT_EQ(again(mesh, "a.off").colors, mesh.colors);
+    mesh.colors.row(0) << 1, 0, 1e-5F, 2;
+    const Colors colors = again(mesh, "a.ply").colors;
+    EXPECT_NEAR(colors(1, 0), 0.3, 0.51 / 255);
+    EXPECT_EQ(colors.row(0), Eigen::RowVector4f(1, 0, 0, 1));
+    EXPECT_NE(read_whole(scratch.path("a.ply")).find("property uchar red"), std::string::npos);
+    again(mesh, "a.off");
+    EXPECT_NE(read_whole(scratch.path("a.off")).find("0 0 0 1.0 0.0 0.000010000 2.0\n1 0 0 0.3 0.3 0.3 0.3\n"),
+              std::string::npos);
+    mesh.colors.setConstant(0.2F);
+    again(mesh, "a.off");
+    EXPECT_NE(read_whole(scratch.path("a.off")).find("1 0 0 51 51 51 51\n"), std::string::npos);
 }
 
 TEST_F(Formats, StlIsWeldedInOrderOfFirstAppearance) {

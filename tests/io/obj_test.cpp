@@ -104,7 +104,7 @@ TEST_F(Obj, TwoPosesOfOneQuadAreCutAlike) {
     EXPECT_NE(read_mesh(flat).triangles, read_mesh(notch).triangles);
     const std::vector<Mesh> meshes = read_meshes({flat, notch, arrow});
     EXPECT_EQ(meshes[0].triangles, meshes[1].triangles);
-    EXPECT_EQ(meshes[2].triangles, read_mesh(arrow).triangles);
+    EXPECT_EQ(meshes[0].triangles, meshes[2].triangles) << "whichever corner comes first";
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "meshtween/io/mesh_file.h"
 
+#include "meshtween/io/file_normals.h"
 #include "meshtween/io/formats.h"
 #include "meshtween/io/text.h"
 
@@ -48,6 +49,10 @@ std::uint64_t attributes_key(const Mesh& mesh) {
     return mixed(mixed(mixed(0xCBF29CE484222325U, mesh.texcoords), mesh.texcoord_triangles), mesh.colors);
 }
 
+std::uint64_t shape_key(const Mesh& mesh) {
+    return mixed(0xCBF29CE484222325U, mesh.positions);
+}
+
 bool is_described(const Mesh& mesh) {
     if (!mesh.file) return false;
     const MeshFile& file = *mesh.file;
@@ -83,6 +88,50 @@ std::vector<std::string> not_kept(const Mesh& mesh, const FormatKeeps& keeps) {
 bool is_rewritable(const Mesh& mesh, std::string_view format) {
     return mesh.file && mesh.file->format == format && !mesh.file->bytes.empty() && is_described(mesh) &&
            attributes_key(mesh) == mesh.file->attributes;
+}
+
+namespace {
+
+WrittenPolygons triangles_of(const Mesh& mesh) {
+    WrittenPolygons result;
+    result.corners.assign(mesh.triangles.data(), mesh.triangles.data() + mesh.triangles.size());
+    for (Eigen::Index t = 1; t <= mesh.triangles.rows(); ++t) result.ends.push_back(static_cast<int>(3 * t));
+    if (mesh.texcoords.rows() > 0)
+        result.texcoord_corners.assign(mesh.texcoord_triangles.data(),
+                                       mesh.texcoord_triangles.data() + mesh.texcoord_triangles.size());
+    return result;
+}
+
+// Corners that were passed over in the cutting name the vertex of a neighbour, and take its texture coordinate.
+std::vector<int> texcoords_of_corners(const Mesh& mesh) {
+    const MeshFile& file = *mesh.file;
+    std::vector<int> result(file.corners.size(), -1);
+    for (Eigen::Index i = 0; i < file.cut.size(); ++i)
+        result[static_cast<std::size_t>(file.cut.data()[i])] = mesh.texcoord_triangles.data()[i];
+    for (std::size_t p = 0, begin = 0; p < file.ends.size(); ++p) {
+        const auto end = static_cast<std::size_t>(file.ends[p]);
+        int last = -1;
+        for (std::size_t c = end; c-- > begin && last < 0;) last = result[c];
+        for (std::size_t c = begin; c < end; ++c) last = result[c] = result[c] < 0 ? last : result[c];
+        begin = end;
+    }
+    return result;
+}
+
+} // namespace
+
+WrittenPolygons written_polygons(const Mesh& mesh) {
+    if (!is_described(mesh)) return triangles_of(mesh);
+    const MeshFile& file = *mesh.file;
+    WrittenPolygons result;
+    result.corners = file.corners;
+    result.ends = file.ends;
+    if (mesh.texcoords.rows() > 0) result.texcoord_corners = texcoords_of_corners(mesh);
+    if (file.normals.rows() > 0) {
+        result.normals = shape_key(mesh) == file.shape ? file.normals : file_normals(mesh);
+        result.normal_corners = file.normal_corners;
+    }
+    return result;
 }
 
 } // namespace meshtween

@@ -55,6 +55,7 @@ struct MeshFile {
     Triangles cut;            // beside the mesh's triangles: their corners
     Eigen::Index vertices = 0;
     std::uint64_t attributes = 0; // attributes_key of the mesh as it was read
+    std::uint64_t shape = 0;      // shape_key of it
 
     Points normals;                  // as the file had them, unit length or not
     std::vector<int> normal_corners; // beside corners: a row of normals, or -1; empty with normals
@@ -77,6 +78,8 @@ std::vector<int> polygon_of_triangles(const MeshFile& file);
 
 // A number that tells texture coordinates and colours from others.
 std::uint64_t attributes_key(const Mesh& mesh);
+// A number that tells positions from others.
+std::uint64_t shape_key(const Mesh& mesh);
 
 // Whether the mesh's file describes it still: vertices and triangles are those that were read. False without a file.
 bool is_described(const Mesh& mesh);
@@ -84,5 +87,16 @@ bool is_described(const Mesh& mesh);
 // Whether a file of this format ("a lower-case extension") can be written as the mesh's own file with other positions:
 // it is of that format and describes the mesh, and texture coordinates and colours are those that were read.
 bool is_rewritable(const Mesh& mesh, std::string_view format);
+
+// Polygons to write: those of the mesh's file where it describes the mesh, else the triangles.
+struct WrittenPolygons {
+    std::vector<int> corners, ends;    // as in MeshFile
+    std::vector<int> texcoord_corners; // beside corners: a row of the mesh's texture coordinates; or empty
+    Points normals;                    // for the shape as it is; empty where the file has none
+    std::vector<int> normal_corners;   // beside corners: a row of normals, or -1; or empty
+
+    int begin(std::size_t polygon) const { return polygon == 0 ? 0 : ends[polygon - 1]; }
+};
+WrittenPolygons written_polygons(const Mesh& mesh);
 
 } // namespace meshtween

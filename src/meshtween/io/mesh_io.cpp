@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <optional>
 #include <string_view>
 
 namespace meshtween {
@@ -30,9 +31,16 @@ std::vector<std::string> write_glb(const Mesh& mesh, const fs::path& path, const
     return {};
 }
 
-constexpr FormatKeeps obj_keeps{.texcoords = true, .colors = true};
-constexpr FormatKeeps ply_keeps{.texcoords = true, .colors = true};
-constexpr FormatKeeps off_keeps{.colors = true};
+constexpr FormatKeeps obj_keeps{.polygons = true,
+                                .texcoords = true,
+                                .colors = true,
+                                .objects = true,
+                                .groups = true,
+                                .smoothing = true,
+                                .materials = true,
+                                .images = true};
+constexpr FormatKeeps ply_keeps{.polygons = true, .texcoords = true, .colors = true, .images = true};
+constexpr FormatKeeps off_keeps{.polygons = true, .colors = true};
 constexpr FormatKeeps vtk_keeps{.polygons = true, .texcoords = true, .colors = true};
 constexpr FormatKeeps usd_keeps{.polygons = true,
                                 .texcoords = true,
@@ -101,17 +109,11 @@ Mesh read_mesh(const fs::path& path) {
 
 std::vector<Mesh> read_meshes(const std::vector<fs::path>& paths) {
     std::vector<Mesh> meshes;
-    std::vector<int> corners, ends;
-    Triangles first_cut;
     for (const fs::path& path : paths) {
         PolygonMesh polygons = read_polygons(path);
-        const bool alike = !meshes.empty() && polygons.corners == corners && polygons.ends == ends;
-        const Triangles cut = alike ? first_cut : cut_polygons(polygons);
-        if (meshes.empty()) {
-            corners = polygons.corners;
-            ends = polygons.ends;
-            first_cut = cut;
-        }
+        std::optional<Triangles> alike;
+        if (!meshes.empty()) alike = cut_like(polygons, meshes.front().triangles);
+        const Triangles cut = alike ? *alike : cut_polygons(polygons);
         meshes.push_back(cut_mesh(std::move(polygons), cut));
     }
     return meshes;

@@ -16,8 +16,9 @@ namespace meshtween {
 // can hold, no faces.
 Mesh read_mesh(const std::filesystem::path& path);
 
-// Reads meshes that are meant to have one connectivity. A file whose polygons are those of the first is cut into
-// triangles as the first is, so that a mesh of quads in two poses stays one mesh. Throws as read_mesh.
+// Reads meshes that are meant to have one connectivity. A file whose polygons can be cut into the triangles of the
+// first is cut so: a mesh of quads in two poses stays one mesh, and so it does beside its own triangles. Throws as
+// read_mesh.
 std::vector<Mesh> read_meshes(const std::vector<std::filesystem::path>& paths);
 
 // Where a picture or a material library that the mesh's file names lies in another folder than the written file.

@@ -99,18 +99,25 @@ PlyHeader read_ply_header(std::string_view bytes, const std::filesystem::path& p
     Text text(bytes, path);
     if (!text.next_line() || text.word() != "ply")
         text.fail("a PLY file begins with 'ply'; this is damaged or of another format");
+    // A carriage return alone ends all lines or none: the data may begin with a newline's byte.
+    const char* first = text.position();
+    const bool returns = first > bytes.data() && first[-1] == '\r';
     PlyHeader header;
     bool encoded = false;
     while (text.next_line()) {
         const std::string_view keyword = text.word();
         if (keyword == "end_header") {
             if (!encoded) text.fail("the header names no format; the file is damaged");
-            header.size = static_cast<std::size_t>(text.position() - bytes.data());
+            const char* end = returns ? keyword.data() + keyword.size() + 1 : text.position();
+            header.size = std::min(static_cast<std::size_t>(end - bytes.data()), bytes.size());
             header.lines = text.line_number();
             refuse_empty_promises(header, bytes.size(), path);
             return header;
         }
-        if (keyword == "format") {
+        if (keyword == "comment" && text.peek() == "TextureFile") {
+            text.word();
+            header.textures.emplace_back(text.rest());
+        } else if (keyword == "format") {
             header.encoding = read_encoding(text);
             encoded = true;
         } else if (keyword == "element") {

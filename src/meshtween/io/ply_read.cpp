@@ -1,141 +1,52 @@
 // The PLY polygon file format, Greg Turk, Stanford 1994: every element and property that is not wanted is read over.
+#include "meshtween/io/companions.h"
 #include "meshtween/io/formats.h"
 #include "meshtween/io/ply.h"
+#include "meshtween/io/ply_numbers.h"
+#include "meshtween/io/ply_slots.h"
 #include "meshtween/io/text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
+#include <optional>
+#include <utility>
 
 namespace meshtween {
 namespace {
 
-// Numbers one after another, from text.
-class AsciiNumbers {
-public:
-    AsciiNumbers(std::string_view data, const std::filesystem::path& path, const PlyHeader& header)
-        : text_(data, path, header.lines + 1), end_(data.data() + data.size()) {}
-
-    double next(PlyType) {
-        const std::string_view word = text_.word_anywhere();
-        double value = 0;
-        if (word.empty()) text_.fail("the file ends too early; it is truncated");
-        if (!parse(word, value)) text_.fail(fmt::format("'{}' should be a number", shown(word)));
-        return value;
-    }
-    std::size_t left() const { return static_cast<std::size_t>(end_ - text_.position()) + text_.line().size() + 1; }
-    [[noreturn]] void fail(const PlyElement&, std::uint64_t, std::string_view what) const { text_.fail(what); }
-
-private:
-    Text text_;
-    const char* end_;
-};
-
-// Numbers one after another, as memory has them, in either byte order.
-class BinaryNumbers {
-public:
-    BinaryNumbers(std::string_view data, std::filesystem::path path, const PlyHeader& header)
-        : data_(data), path_(std::move(path)),
-          swap_((header.encoding == PlyEncoding::little_endian) != (std::endian::native == std::endian::little)) {}
-
-    double next(PlyType type) {
-        switch (type) {
-        case PlyType::int8:
-            return take<std::int8_t>();
-        case PlyType::uint8:
-            return take<std::uint8_t>();
-        case PlyType::int16:
-            return take<std::int16_t>();
-        case PlyType::uint16:
-            return take<std::uint16_t>();
-        case PlyType::int32:
-            return take<std::int32_t>();
-        case PlyType::uint32:
-            return take<std::uint32_t>();
-        case PlyType::float32:
-            return take<float>();
-        default:
-            return take<double>();
-        }
-    }
-    std::size_t left() const { return data_.size() - at_; }
-    [[noreturn]] void fail(const PlyElement& element, std::uint64_t number, std::string_view what) const {
-        bad_file(path_, fmt::format("element '{}' {} (counted from 0): {}", element.name, number, what));
-    }
-
-private:
-    template <typename Number>
-    Number take() {
-        if (left() < sizeof(Number)) bad_file(path_, "the file ends too early; it is truncated");
-        std::array<char, sizeof(Number)> raw;
-        std::memcpy(raw.data(), data_.data() + at_, sizeof(Number));
-        if (swap_) std::reverse(raw.begin(), raw.end());
-        at_ += sizeof(Number);
-        return std::bit_cast<Number>(raw);
-    }
-
-    std::string_view data_;
-    std::filesystem::path path_;
-    bool swap_;
-    std::size_t at_ = 0;
-};
-
-// What a vertex's property means. One name a meaning, as the writers in use have them.
-enum Slot { slot_x, slot_y, slot_z, slot_red, slot_green, slot_blue, slot_alpha, slot_u, slot_v, slot_none };
-
-Slot slot_named(std::string_view name) {
-    static constexpr std::array<std::pair<std::string_view, Slot>, 20> names{{{"x", slot_x},
-                                                                              {"y", slot_y},
-                                                                              {"z", slot_z},
-                                                                              {"red", slot_red},
-                                                                              {"green", slot_green},
-                                                                              {"blue", slot_blue},
-                                                                              {"alpha", slot_alpha},
-                                                                              {"r", slot_red},
-                                                                              {"g", slot_green},
-                                                                              {"b", slot_blue},
-                                                                              {"a", slot_alpha},
-                                                                              {"diffuse_red", slot_red},
-                                                                              {"diffuse_green", slot_green},
-                                                                              {"diffuse_blue", slot_blue},
-                                                                              {"s", slot_u},
-                                                                              {"t", slot_v},
-                                                                              {"u", slot_u},
-                                                                              {"v", slot_v},
-                                                                              {"texture_u", slot_u},
-                                                                              {"texture_v", slot_v}}};
-    for (const auto& [known, slot] : names)
-        if (known == name) return slot;
-    return slot_none;
-}
-
-double color_scale(PlyType type) {
-    return type == PlyType::uint8 ? 255 : type == PlyType::uint16 ? 65535 : 1;
-}
-
 template <typename Numbers>
 class PlyReader {
 public:
-    PlyReader(Numbers numbers, std::filesystem::path path) : numbers_(std::move(numbers)), path_(std::move(path)) {}
+    PlyReader(Numbers numbers, std::filesystem::path path, PlyPlaces* places)
+        : numbers_(std::move(numbers)), path_(std::move(path)), places_(places) {}
 
     PolygonMesh read(const PlyHeader& header) {
         for (const PlyElement& element : header.elements) {
-            if (element.name == "tristrips")
-                bad_file(path_, "holds triangle strips, which are not read; save it again with single faces");
             if (element.name == "vertex")
                 read_vertices(element);
             else if (element.name == "face")
-                read_faces(element);
+                read_faces(element, header);
+            else if (element.name == "tristrips")
+                read_strips(element);
             else if (!element.properties.empty())
-                for (std::uint64_t i = 0; i < element.count; ++i)
+                for (std::uint64_t i = 0; i < element.count; ++i) {
+                    numbers_.begin_element();
                     for (const PlyProperty& property : element.properties) skip(element, i, property);
+                }
         }
-        finish_texcoords();
+        if (const std::string more = numbers_.surplus(); !more.empty())
+            mesh_.file.notes.push_back(
+                fmt::format("{} behind what the header promises: passed over; the file may be damaged", more));
+        if (short_faces_ > 0)
+            mesh_.file.notes.push_back(fmt::format(
+                "{} fewer than three corners, first face {} (counted from 0): "
+                "passed over",
+                short_faces_ == 1 ? "1 face has" : fmt::format("{} faces have", short_faces_), first_short_face_));
+        finish_attributes();
         return std::move(mesh_);
     }
 
@@ -152,100 +63,183 @@ private:
 
     void skip(const PlyElement& element, std::uint64_t number, const PlyProperty& property) {
         const std::uint64_t count = property.is_list ? list_length(element, number, property) : 1;
-        for (std::uint64_t i = 0; i < count; ++i) numbers_.next(property.type);
+        for (std::uint64_t i = 0; i < count; ++i) numbers_.pass(property.type);
     }
 
     void read_vertices(const PlyElement& element);
-    void read_faces(const PlyElement& element);
+    void read_vertex(const PlyElement& element, std::uint64_t number, const Slots& slots);
+    void read_faces(const PlyElement& element, const PlyHeader& header);
+    void end_face(std::uint64_t face);
+    void read_strips(const PlyElement& element);
     void read_corners(const PlyElement& element, std::uint64_t face, const PlyProperty& property);
     void read_face_texcoords(const PlyElement& element, std::uint64_t face, const PlyProperty& property);
-    void finish_texcoords();
+    int vertex_number(const PlyElement& element, std::uint64_t number, double index) const;
+    void finish_attributes();
 
     Numbers numbers_;
     std::filesystem::path path_;
+    PlyPlaces* places_;
     PolygonMesh mesh_;
-    std::size_t face_begin_ = 0;          // the first corner of the face that is read
+    std::array<double, slot_none + 1> row_{};
+    std::array<const char*, slot_none + 1> row_places_{};
+    bool colored_ = false, textured_ = false, curved_ = false;
+    std::size_t face_begin_ = 0; // the first corner of the face that is read
+    std::size_t short_faces_ = 0;
+    std::uint64_t first_short_face_ = 0;
+    std::vector<double> normals_;         // x y z a vertex
     std::vector<float> wedges_;           // u v a corner, from the faces
     std::vector<float> vertex_texcoords_; // u v a vertex
 };
 
+// Whole numbers run to 255 or, where they are wide, to 65535; of some writers' wide ones only to 255.
+void scale_colors(std::vector<float>& colors, const PlyElement& element, const Slots& slots) {
+    const bool wide = std::any_of(colors.begin(), colors.end(), [](float c) { return c > 255; });
+    for (std::size_t p = 0; p < slots.of.size(); ++p) {
+        const Slot slot = slots.of[p];
+        const PlyType type = element.properties[p].type;
+        if (slot < slot_red || slot > slot_alpha || (type != PlyType::uint8 && type != PlyType::uint16)) continue;
+        const float most = wide && type == PlyType::uint16 ? 65535 : 255;
+        for (std::size_t i = slot - slot_red; i < colors.size(); i += 4) colors[i] /= most;
+    }
+}
+
 template <typename Numbers>
 void PlyReader<Numbers>::read_vertices(const PlyElement& element) {
-    std::vector<Slot> slots;
-    std::array<bool, slot_none + 1> has{};
-    std::array<double, slot_none + 1> scale;
-    scale.fill(1);
-    for (const PlyProperty& property : element.properties) {
-        const Slot slot = property.is_list ? slot_none : slot_named(property.name);
-        slots.push_back(slot);
-        has[slot] = true;
-        if (slot >= slot_red && slot <= slot_alpha) scale[slot] = color_scale(property.type);
-    }
-    if (!has[slot_x] || !has[slot_y] || !has[slot_z]) bad_file(path_, "its vertices have no x, y and z");
-    const bool colored = has[slot_red] && has[slot_green] && has[slot_blue], textured = has[slot_u] && has[slot_v];
+    const Slots slots(element);
+    if (!slots.has_all({slot_x, slot_y, slot_z})) bad_file(path_, "its vertices have no x, y and z");
+    colored_ = slots.has_all({slot_red, slot_green, slot_blue});
+    textured_ = slots.has_all({slot_u, slot_v});
+    curved_ = slots.has_all({slot_nx, slot_ny, slot_nz});
     const auto count = static_cast<std::size_t>(element.count);
     mesh_.coordinates.reserve(3 * count);
-    if (colored) mesh_.colors.reserve(4 * count);
-    if (textured) vertex_texcoords_.reserve(2 * count);
-    std::array<double, slot_none + 1> row{};
-    row[slot_alpha] = 1;
-    for (std::uint64_t i = 0; i < element.count; ++i) {
-        for (std::size_t p = 0; p < slots.size(); ++p)
-            if (element.properties[p].is_list)
-                skip(element, i, element.properties[p]);
-            else
-                row[slots[p]] = numbers_.next(element.properties[p].type) / scale[slots[p]];
-        for (const Slot slot : {slot_x, slot_y, slot_z}) {
-            if (!std::isfinite(row[slot]))
-                numbers_.fail(element, i,
-                              fmt::format("{} is {}, which is not a finite number; mend the coordinates or export the "
-                                          "model again",
-                                          "xyz"[slot], row[slot]));
-            mesh_.coordinates.push_back(row[slot]);
-        }
-        if (colored)
-            for (const Slot slot : {slot_red, slot_green, slot_blue, slot_alpha})
-                mesh_.colors.push_back(static_cast<float>(row[slot]));
-        if (textured)
-            for (const Slot slot : {slot_u, slot_v}) vertex_texcoords_.push_back(static_cast<float>(row[slot]));
-    }
+    if (colored_) mesh_.colors.reserve(4 * count);
+    if (textured_) vertex_texcoords_.reserve(2 * count);
+    if (curved_) normals_.reserve(3 * count);
+    row_[slot_alpha] = 1;
+    for (std::uint64_t i = 0; i < element.count; ++i) read_vertex(element, i, slots);
+    if (colored_) scale_colors(mesh_.colors, element, slots);
     normalise_colors(mesh_.colors);
 }
 
-bool is_corner_list(const PlyProperty& property) {
-    return property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
+template <typename Numbers>
+void PlyReader<Numbers>::read_vertex(const PlyElement& element, std::uint64_t number, const Slots& slots) {
+    numbers_.begin_element();
+    for (std::size_t p = 0; p < slots.of.size(); ++p) {
+        const PlyProperty& property = element.properties[p];
+        const Slot slot = slots.of[p];
+        if (places_ != nullptr) row_places_[slot] = numbers_.here();
+        if (slot == slot_none)
+            skip(element, number, property);
+        else
+            row_[slot] = slot <= slot_z ? numbers_.next(property.type) : numbers_.next_attribute(property.type);
+    }
+    for (const Slot slot : {slot_x, slot_y, slot_z}) {
+        if (!std::isfinite(row_[slot]))
+            numbers_.fail(element, number,
+                          fmt::format("{} is {}, which is not a finite number; mend the coordinates or export the "
+                                      "model again",
+                                      "xyz"[slot], row_[slot]));
+        mesh_.coordinates.push_back(row_[slot]);
+    }
+    const auto finite = [](double value) { return std::isfinite(value) ? value : 0; };
+    if (colored_)
+        for (const Slot slot : {slot_red, slot_green, slot_blue, slot_alpha})
+            mesh_.colors.push_back(static_cast<float>(row_[slot]));
+    if (textured_)
+        for (const Slot slot : {slot_u, slot_v}) vertex_texcoords_.push_back(static_cast<float>(finite(row_[slot])));
+    if (curved_)
+        for (const Slot slot : {slot_nx, slot_ny, slot_nz}) normals_.push_back(finite(row_[slot]));
+    if (places_ == nullptr) return;
+    for (const Slot slot : {slot_x, slot_y, slot_z}) places_->positions.push_back(row_places_[slot]);
+    if (curved_)
+        for (const Slot slot : {slot_nx, slot_ny, slot_nz}) places_->normals.push_back(row_places_[slot]);
+}
+
+template <typename Numbers>
+int PlyReader<Numbers>::vertex_number(const PlyElement& element, std::uint64_t number, double index) const {
+    if (!(index >= 0 && index < std::numeric_limits<int>::max()) || index != std::floor(index))
+        numbers_.fail(element, number, fmt::format("{} is no vertex's number; the file is damaged", index));
+    return static_cast<int>(index);
 }
 
 template <typename Numbers>
 void PlyReader<Numbers>::read_corners(const PlyElement& element, std::uint64_t face, const PlyProperty& property) {
-    const std::uint64_t count = list_length(element, face, property);
-    if (count < 3)
-        numbers_.fail(element, face,
-                      fmt::format("a face needs three corners, this has {}; the file is damaged", count));
-    for (std::uint64_t i = 0; i < count; ++i) {
-        const double index = numbers_.next(property.type);
-        if (!(index >= 0 && index < std::numeric_limits<int>::max()) || index != std::floor(index))
-            numbers_.fail(element, face, fmt::format("{} is no vertex's number; the file is damaged", index));
-        mesh_.corners.push_back(static_cast<int>(index));
-    }
-    mesh_.end_polygon();
+    for (std::uint64_t left = list_length(element, face, property); left > 0; --left)
+        mesh_.corners.push_back(vertex_number(element, face, numbers_.next(property.type)));
 }
 
 template <typename Numbers>
-void PlyReader<Numbers>::read_faces(const PlyElement& element) {
-    if (std::count_if(element.properties.begin(), element.properties.end(), is_corner_list) != 1)
+void PlyReader<Numbers>::read_faces(const PlyElement& element, const PlyHeader& header) {
+    const bool strips = std::any_of(header.elements.begin(), header.elements.end(),
+                                    [](const PlyElement& other) { return other.name == "tristrips"; });
+    if (std::count_if(element.properties.begin(), element.properties.end(), is_corner_list) != 1 && !strips)
         bad_file(path_, "its faces have no list 'vertex_indices'; export the model again");
+    const Slots slots(element);
+    const bool textured = !header.textures.empty(), curved = slots.has_all({slot_nx, slot_ny, slot_nz});
     mesh_.ends.reserve(static_cast<std::size_t>(element.count));
     mesh_.corners.reserve(static_cast<std::size_t>(element.count) * 3);
     for (std::uint64_t face = 0; face < element.count; ++face) {
         face_begin_ = mesh_.corners.size();
-        for (const PlyProperty& property : element.properties)
+        double texture = 0;
+        numbers_.begin_element();
+        for (std::size_t p = 0; p < slots.of.size(); ++p) {
+            const PlyProperty& property = element.properties[p];
+            if (places_ != nullptr) row_places_[slots.of[p]] = numbers_.here();
             if (is_corner_list(property))
                 read_corners(element, face, property);
             else if (property.is_list && property.name == "texcoord")
                 read_face_texcoords(element, face, property);
+            else if (!property.is_list && property.name == "texnumber")
+                texture = numbers_.next_attribute(property.type);
             else
                 skip(element, face, property);
+        }
+        end_face(face);
+        if (mesh_.corners.size() == face_begin_) continue;
+        if (textured) {
+            const bool known = texture >= 0 && texture < static_cast<double>(header.textures.size());
+            mesh_.file.polygon_materials.push_back(known ? static_cast<int>(texture) : -1);
+        }
+        if (places_ != nullptr && curved)
+            for (const Slot slot : {slot_nx, slot_ny, slot_nz}) places_->face_normals.push_back(row_places_[slot]);
+    }
+}
+
+// A face of fewer than three corners is no part of the surface.
+template <typename Numbers>
+void PlyReader<Numbers>::end_face(std::uint64_t face) {
+    if (mesh_.corners.size() >= face_begin_ + 3) return mesh_.end_polygon();
+    if (short_faces_++ == 0) first_short_face_ = face;
+    mesh_.corners.resize(face_begin_);
+    wedges_.resize(std::min(wedges_.size(), 2 * face_begin_));
+}
+
+// Each corner makes a triangle with the two before it, every other one turned over; -1 begins a new strip. Triangles
+// that name a vertex twice only lead from one part of a strip to the next.
+template <typename Numbers>
+void PlyReader<Numbers>::read_strips(const PlyElement& element) {
+    for (std::uint64_t strip = 0; strip < element.count; ++strip) {
+        numbers_.begin_element();
+        for (const PlyProperty& property : element.properties) {
+            if (!is_corner_list(property)) {
+                skip(element, strip, property);
+                continue;
+            }
+            std::array<int, 2> before{-1, -1};
+            bool turned = false;
+            for (std::uint64_t left = list_length(element, strip, property); left > 0; --left) {
+                const double index = numbers_.next(property.type);
+                const bool restart = index == -1 || index == std::numeric_limits<std::uint32_t>::max();
+                const int vertex = restart ? -1 : vertex_number(element, strip, index);
+                const auto [a, b] = before;
+                if (a >= 0 && vertex >= 0 && a != b && b != vertex && a != vertex) {
+                    mesh_.corners.insert(mesh_.corners.end(), {turned ? b : a, turned ? a : b, vertex});
+                    mesh_.end_polygon();
+                }
+                turned = a >= 0 && vertex >= 0 ? !turned : false;
+                before = vertex < 0 ? std::array{-1, -1} : std::array{b, vertex};
+            }
+        }
     }
 }
 
@@ -255,35 +249,96 @@ void PlyReader<Numbers>::read_face_texcoords(const PlyElement& element, std::uin
                                              const PlyProperty& property) {
     wedges_.resize(2 * face_begin_, 0);
     for (std::uint64_t left = list_length(element, face, property); left > 0; --left) {
-        const double value = numbers_.next(property.type);
+        const double value = numbers_.next_attribute(property.type);
         wedges_.push_back(std::isfinite(value) ? static_cast<float>(value) : 0);
     }
 }
 
 template <typename Numbers>
-void PlyReader<Numbers>::finish_texcoords() {
+void PlyReader<Numbers>::finish_attributes() {
+    if (!mesh_.file.polygon_materials.empty()) mesh_.file.polygon_materials.resize(mesh_.ends.size(), -1);
     if (!wedges_.empty()) { // corners of one vertex with the same values share a texture coordinate
         wedges_.resize(2 * mesh_.corners.size(), 0);
         share_texcoords(mesh_, wedges_);
     } else if (!vertex_texcoords_.empty()) {
-        for (float& value : vertex_texcoords_)
-            if (!std::isfinite(value)) value = 0;
         mesh_.texcoords = std::move(vertex_texcoords_);
         mesh_.texcoord_corners = mesh_.corners;
     }
+    if (normals_.empty()) return;
+    mesh_.file.normals = Eigen::Map<const Points>(normals_.data(), static_cast<Eigen::Index>(normals_.size() / 3), 3);
+    mesh_.file.normal_corners = mesh_.corners;
 }
 
-template <typename Numbers>
-PolygonMesh read_body(std::string_view bytes, const std::filesystem::path& path, const PlyHeader& header) {
-    return PlyReader(Numbers(bytes.substr(header.size), path, header), path).read(header);
+PolygonMesh read_text(std::string_view bytes, const std::filesystem::path& path, const PlyHeader& header,
+                      PlyPlaces* places, bool by_lines) {
+    if (places != nullptr) *places = {};
+    return PlyReader(AsciiNumbers(bytes, path, header, by_lines), path, places).read(header);
+}
+
+// What nobody here understands, by name.
+void tell_customs(MeshFile& file, const PlyHeader& header) {
+    std::vector<std::string> properties;
+    for (const PlyElement& element : header.elements) {
+        const bool vertex = element.name == "vertex", face = element.name == "face";
+        if (!vertex && !face) {
+            if (element.count > 0 && element.name != "tristrips")
+                file.only_here.push_back(fmt::format("the element '{}'", shown(element.name)));
+            continue;
+        }
+        for (const PlyProperty& property : element.properties) {
+            const bool known = vertex ? !property.is_list && slot_named(property.name) != slot_none
+                                      : is_corner_list(property) || property.name == "texcoord" ||
+                                            property.name == "texnumber" || property.name == "nx" ||
+                                            property.name == "ny" || property.name == "nz";
+            if (!known) properties.push_back(shown(property.name));
+        }
+    }
+    if (properties.size() == 1) file.only_here.push_back(fmt::format("the property '{}'", properties[0]));
+    if (properties.size() > 1)
+        file.only_here.push_back(fmt::format("the {} properties {}", properties.size(), listed(properties)));
+}
+
+// A material for each picture.
+void add_textures(MeshFile& file, const PlyHeader& header, const std::filesystem::path& folder) {
+    for (const std::string& name : header.textures) {
+        const std::filesystem::path found = find_companion(folder, name);
+        if (found.empty()) file.notes.push_back(fmt::format("there is no picture {}, which it names", name));
+        Material& material = file.materials.emplace_back();
+        material.name = std::filesystem::path(name).stem().string();
+        if (found.empty()) continue;
+        material.base_color_image = static_cast<int>(file.images.size());
+        file.images.push_back({name, {}, {}, found});
+    }
 }
 
 } // namespace
 
+// An element a line, or, where that cannot be read, words without regard to lines.
+PolygonMesh read_ply_body(std::string_view bytes, const std::filesystem::path& path, const PlyHeader& header,
+                          PlyPlaces* places) {
+    if (header.encoding != PlyEncoding::ascii)
+        return PlyReader(BinaryNumbers(bytes, path, header), path, places).read(header);
+    std::optional<Error> by_lines;
+    try {
+        return read_text(bytes, path, header, places, true);
+    } catch (const RaggedLines&) {
+    } catch (const Error& error) {
+        by_lines = error;
+    }
+    try {
+        return read_text(bytes, path, header, places, false);
+    } catch (const Error&) {
+        if (by_lines) throw *by_lines;
+        throw;
+    }
+}
+
 PolygonMesh read_ply(std::string_view bytes, const std::filesystem::path& path) {
     const PlyHeader header = read_ply_header(bytes, path);
-    return header.encoding == PlyEncoding::ascii ? read_body<AsciiNumbers>(bytes, path, header)
-                                                 : read_body<BinaryNumbers>(bytes, path, header);
+    PolygonMesh mesh = read_ply_body(bytes, path, header);
+    tell_customs(mesh.file, header);
+    add_textures(mesh.file, header, path.parent_path());
+    return mesh;
 }
 
 } // namespace meshtween

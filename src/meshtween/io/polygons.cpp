@@ -164,6 +164,28 @@ Triangles cut_polygons(const PolygonMesh& polygons) {
     return Eigen::Map<const Triangles>(cut.data(), static_cast<Eigen::Index>(cut.size() / 3), 3);
 }
 
+std::optional<Triangles> cut_like(const PolygonMesh& polygons, const Triangles& triangles) {
+    Triangles cut(triangles.rows(), 3);
+    Eigen::Index t = 0;
+    int begin = 0;
+    for (const int end : polygons.ends) {
+        const auto last = polygons.corners.begin() + end;
+        const Eigen::Index most = t + end - begin - 2, least = t + 1;
+        for (bool here = true; here && t < std::min(most, triangles.rows()); t += here)
+            for (int k = 0; k < 3 && here; ++k) {
+                // A triangle may name a vertex twice: then the next corner with it.
+                const int from = k > 0 && triangles(t, k) == triangles(t, k - 1) ? cut(t, k - 1) + 1 : begin;
+                const auto found = std::find(polygons.corners.begin() + from, last, triangles(t, k));
+                here = found != last;
+                if (here) cut(t, k) = static_cast<int>(found - polygons.corners.begin());
+            }
+        if (t < least) return {};
+        begin = end;
+    }
+    if (t != triangles.rows()) return {};
+    return cut;
+}
+
 void require_sound(const PolygonMesh& polygons, const std::filesystem::path& path) {
     constexpr std::size_t most = std::numeric_limits<int>::max() / 3;
     const std::size_t vertices = polygons.coordinates.size() / 3;
@@ -205,6 +227,7 @@ Mesh cut_mesh(PolygonMesh&& polygons, const Triangles& cut) {
     file.vertices = rows;
     set_texcoords(mesh, polygons, cut);
     file.attributes = attributes_key(mesh);
+    file.shape = shape_key(mesh);
     mesh.file = std::make_shared<const MeshFile>(std::move(file));
     return mesh;
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace meshtween {
@@ -33,6 +34,9 @@ void share_texcoords(PolygonMesh& polygons, const std::vector<float>& wedges);
 // cut so, whatever its shape, which cuts a model alike in most poses; the others are cut by clipping ears. Corners that
 // repeat the one before are passed over in polygons of more than three.
 Triangles cut_polygons(const PolygonMesh& polygons);
+
+// The polygons cut into these triangles (of vertices), polygon after polygon; nothing where they cannot be.
+std::optional<Triangles> cut_like(const PolygonMesh& polygons, const Triangles& triangles);
 
 // Throws Error(file) naming the element: no vertices, no faces, too many of either, an index out of range, a coordinate
 // that is not finite.

@@ -57,26 +57,40 @@ public:
         if (bytes.substr(0, 3) == "\xEF\xBB\xBF") next_ += 3; // the mark that some editors put before UTF-8
     }
 
-    // Goes to the next line; false at the end of the file.
+    // Goes to the next line; false at the end of the file. Lines end in a newline, a carriage return or both.
     bool next_line() {
         if (next_ >= end_) return false;
-        const void* newline = std::memchr(next_, '\n', static_cast<std::size_t>(end_ - next_));
+        if (next_ > newline_ || newline_ == nullptr) newline_ = find(next_, end_, '\n');
         begin_ = word_ = next_;
-        line_end_ = newline != nullptr ? static_cast<const char*>(newline) : end_;
-        next_ = line_end_ + 1;
+        line_end_ = find(next_, newline_, '\r');
+        next_ = line_end_ + (line_end_ + 1 == newline_ ? 2 : 1);
         ++number_;
         return true;
     }
 
-    // As next_line, but a line that ends in a backslash goes on in the next.
-    bool next_joined_line() {
-        if (!next_line()) return false;
+    // A line that ends in a backslash goes on in the next. The words read before stay read. Tells whether it did.
+    bool join_lines() {
+        const char* end = line_end_;
         while (ends_in_backslash() && next_ < end_) {
-            const char* begin = begin_;
+            const char *begin = begin_, *word = word_;
             next_line();
-            begin_ = word_ = begin;
+            begin_ = begin, word_ = word;
         }
-        return true;
+        return line_end_ != end;
+    }
+
+    // What follows this character in the line is passed over. Tells whether it is there.
+    bool cut_at(char c) {
+        const char* end = std::exchange(line_end_, find(word_, line_end_, c));
+        return line_end_ != end;
+    }
+
+    // What is left of the line, without the blanks around it.
+    std::string_view rest() const {
+        const char *begin = word_, *end = line_end_;
+        while (begin < end && is_blank(*begin)) ++begin;
+        while (begin < end && is_blank(end[-1])) --end;
+        return {begin, static_cast<std::size_t>(end - begin)};
     }
 
     // The next word of the line; empty at its end.
@@ -84,6 +98,14 @@ public:
         while (word_ < line_end_ && is_space(*word_)) ++word_;
         const char* begin = word_;
         while (word_ < line_end_ && !is_space(*word_)) ++word_;
+        return {begin, static_cast<std::size_t>(word_ - begin)};
+    }
+
+    // The next word of the line, backslashes included.
+    std::string_view word_between_blanks() {
+        while (word_ < line_end_ && is_blank(*word_)) ++word_;
+        const char* begin = word_;
+        while (word_ < line_end_ && !is_blank(*word_)) ++word_;
         return {begin, static_cast<std::size_t>(word_ - begin)};
     }
 
@@ -101,6 +123,13 @@ public:
             if (const std::string_view found = word(); !found.empty()) return found;
             if (!next_line()) return {};
         }
+    }
+
+    // The next word of the file, which stays the next.
+    std::string_view peek_anywhere() {
+        const std::string_view found = word_anywhere();
+        if (!found.empty()) word_ = found.data();
+        return found;
     }
 
     // The next word of the line as a finite number. `what` names it in messages: "x".
@@ -135,11 +164,17 @@ public:
 
 private:
     // Joined lines keep their backslash and newline inside; no number holds one.
-    static bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\\'; }
+    static bool is_space(char c) { return is_blank(c) || c == '\\'; }
+    static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f'; }
+
+    static const char* find(const char* begin, const char* end, char c) {
+        const void* found = begin < end ? std::memchr(begin, c, static_cast<std::size_t>(end - begin)) : nullptr;
+        return found != nullptr ? static_cast<const char*>(found) : end;
+    }
 
     bool ends_in_backslash() const {
         const char* last = line_end_;
-        if (last > begin_ && last[-1] == '\r') --last;
+        while (last > begin_ && is_blank(last[-1])) --last;
         return last > begin_ && last[-1] == '\\';
     }
 
@@ -151,6 +186,7 @@ private:
 
     const char *next_, *end_;
     const char *begin_ = nullptr, *word_ = nullptr, *line_end_ = nullptr;
+    const char* newline_ = nullptr; // the next from where the line begins, or the end
     long number_;
     std::filesystem::path path_;
 };
