@@ -1,6 +1,6 @@
 """Writes what viewers are compared on: played_files.py MESHTWEEN FOLDER.
 
-For each case NAME.glb, and NAME.json: {seconds, tolerance, moments: [{t, vertices}]}, the shapes that `tween --at` gives
+For each case NAME.glb and NAME.usda, and NAME.json: {seconds, tolerance, moments: [{t, vertices}]}, the shapes that `tween --at` gives
 where the animation is at t (0 to 1). They come from the path's own solve, not from the curve that the GLB holds.
 """
 import json
@@ -26,7 +26,7 @@ def vertices(obj):
 def write_case(name, meshes, *options, ease="linear"):
     common = ["tween", *(folder / mesh for mesh in meshes), "--no-repair", *options]
     report = folder / f"{name}_report.json"
-    run(*common, "--ease", ease, "--seconds", 2, "--report", report, "-o", folder / f"{name}.glb")
+    run(*common, "--ease", ease, "--seconds", 2, "--report", report, "-o", folder / f"{name}.glb", "-o", folder / f"{name}.usda")
     told = json.loads(report.read_text())["path"]["curve"]
     assert told["deviation"] <= TOLERANCE, told
     print(name, told)
@@ -44,3 +44,4 @@ write_case("demo", ["bow_source.ply", "fitted.ply"])
 write_case("twist_270", ["bar.obj", "bar_twisted_270.obj"])
 write_case("three_keys", ["bar.obj", "bar_twisted_90.obj", "bar_twisted_270.obj"])
 write_case("eased", ["bar.obj", "bar_twisted_270.obj"], ease="in-out")
+write_case("straight", ["bar.obj", "bar_twisted_90.obj", "bar_twisted_270.obj"], "--method", "linear")

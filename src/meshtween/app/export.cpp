@@ -14,20 +14,10 @@ extern "C" const char meshtween_player_begin[], meshtween_player_end[]; // the p
 namespace meshtween {
 namespace {
 
-// A target that lies on the path says which key it is; the others are numbered.
-std::vector<std::string> target_names(const Curve& curve) {
-    std::vector<std::string> names;
-    const std::vector<bool> on = nodes_on_path(curve);
-    int key = 1, control = 0; // the base is the first key
-    for (std::size_t k = 1; k < on.size(); ++k)
-        names.push_back(on[k] ? fmt::format("key {}", ++key) : fmt::format("control {}", ++control));
-    return names;
-}
-
 GltfMorph animation(const Curve& curve, const WeightKeys& keys) {
     GltfMorph morph;
     morph.shapes = std::span(curve.nodes).subspan(1);
-    morph.names = target_names(curve);
+    morph.names = shape_names(curve);
     morph.degree = curve.basis.degree;
     morph.knots = curve.basis.knots;
     morph.times = keys.times;
@@ -83,6 +73,15 @@ std::string html_escaped(std::string_view text) {
 }
 
 } // namespace
+
+std::vector<std::string> shape_names(const Curve& curve) {
+    std::vector<std::string> names;
+    const std::vector<bool> on = nodes_on_path(curve);
+    int key = 1, control = 0; // the base is the first key
+    for (std::size_t k = 1; k < on.size(); ++k)
+        names.push_back(on[k] ? fmt::format("key {}", ++key) : fmt::format("control {}", ++control));
+    return names;
+}
 
 std::string morph_glb(const Mesh& mesh, const Curve& curve, const PlayOptions& options) {
     check(mesh, curve);

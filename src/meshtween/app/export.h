@@ -6,8 +6,12 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace meshtween {
+
+// Names of the curve's nodes but the first: one that lies on the path says which key it is; the others are numbered.
+std::vector<std::string> shape_names(const Curve& curve);
 
 // A binary glTF: `mesh` carries triangles, UVs and colours, the curve's nodes become morph targets with normals, and a
 // weights animation plays the curve. Valid for the Khronos glTF validator without errors or warnings.

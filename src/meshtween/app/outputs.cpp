@@ -3,6 +3,7 @@
 #include "meshtween/app/fading.h"
 #include "meshtween/app/film.h"
 #include "meshtween/app/path_plot.h"
+#include "meshtween/app/usd_morph.h"
 #include "meshtween/core/error.h"
 #include "meshtween/fit/faded_look.h"
 #include "meshtween/io/mesh_io.h"
@@ -49,8 +50,7 @@ bool pictures_fade(const Playable& playable) {
     return playable.other && (shows_materials(playable.mesh) || shows_materials(*playable.other));
 }
 
-std::string played(const Playable& playable) {
-    const WeightKeys keys = playable.keys ? *playable.keys : weight_keys(playable.path, playable.play);
+std::string played(const Playable& playable, const WeightKeys& keys) {
     const auto dressed = [&](const Mesh& mesh) { return morph_glb(mesh, playable.path, keys, playable.play.title); };
     if (!playable.other) return dressed(playable.mesh);
     Mesh from = playable.mesh, to = *playable.other;
@@ -176,8 +176,9 @@ void check_still(const std::vector<Output>& outputs) {
 }
 
 bool any_played(const std::vector<Output>& outputs) {
-    return std::any_of(outputs.begin(), outputs.end(),
-                       [](const Output& out) { return out.kind == OutputKind::glb || out.kind == OutputKind::html; });
+    return std::any_of(outputs.begin(), outputs.end(), [](const Output& out) {
+        return out.kind == OutputKind::glb || out.kind == OutputKind::html || out.kind == OutputKind::usd;
+    });
 }
 
 Output output(const std::string& name) {
@@ -193,15 +194,17 @@ Output output(const std::string& name) {
     if (is_mesh_extension(extension)) check_writable(path);
     if (counted && (is_mesh_extension(extension) || extension == ".png")) return {OutputKind::sequence, path};
     if (extension == ".glb") return {OutputKind::glb, path};
+    if (extension == ".usda") return {OutputKind::usd, path};
     if (extension == ".html") return {OutputKind::html, path};
     if (extension == ".png") return {OutputKind::sheet, path};
     if (extension == ".apng") return {OutputKind::film, path};
     if (extension == ".svg") return {OutputKind::plot, path};
     if (is_mesh_extension(extension)) return {OutputKind::mesh, path};
-    throw Error(ErrorKind::argument, fmt::format("-o {}: cannot tell what to write from \"{}\"; use .glb, .html, .png, "
-                                                 ".apng, .svg, .obj, .ply, .stl, .off, .vtk, .vtp, .usda, "
-                                                 "or frame_####.obj for a numbered sequence",
-                                                 name, extension));
+    throw Error(ErrorKind::argument,
+                fmt::format("-o {}: cannot tell what to write from \"{}\"; use .glb, .usda, .html, .png, "
+                            ".apng, .svg, .obj, .ply, .stl, .off, .vtk, .vtp, "
+                            "or frame_####.obj for a numbered sequence",
+                            name, extension));
 }
 
 std::filesystem::path numbered(const std::filesystem::path& pattern, int number) {
@@ -225,8 +228,12 @@ std::vector<double> frame_times(int frames, FrameOrder order) {
 Written write_outputs(const Playable& playable, const std::vector<Output>& outputs, const Progress& progress) {
     check_playable(outputs);
     Written written;
+    WeightKeys keys;
+    if (any_played(outputs)) keys = playable.keys ? *playable.keys : weight_keys(playable.path, playable.play);
     std::string glb;
-    if (any_played(outputs)) glb = played(playable);
+    if (std::any_of(outputs.begin(), outputs.end(),
+                    [](const Output& out) { return out.kind == OutputKind::glb || out.kind == OutputKind::html; }))
+        glb = played(playable, keys);
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         const auto& [kind, path] = outputs[i];
         const double count = double(outputs.size());
@@ -235,7 +242,14 @@ Written write_outputs(const Playable& playable, const std::vector<Output>& outpu
         if (written.cancelled) break;
         if (kind == OutputKind::glb) write_whole(path, glb);
         if (kind == OutputKind::html) write_whole(path, morph_html(glb, playable.play));
-        if (kind == OutputKind::glb || kind == OutputKind::html) note(written, left_behind(playable.mesh, path));
+        if (kind == OutputKind::usd) {
+            note(written, write_morph_usd(playable.mesh, playable.path, keys, path, playable.writing));
+            if (playable.other)
+                note(written,
+                     {fmt::format("{}: shows the first look alone; .glb and .html fade to the other", path.string())});
+        }
+        if (kind == OutputKind::glb || kind == OutputKind::html || kind == OutputKind::usd)
+            note(written, left_behind(playable.mesh, path));
         if (kind == OutputKind::sheet) written.cancelled = !write_sheet(playable, path, part);
         if (kind == OutputKind::film) written.cancelled = !write_film(playable, path, part);
         if (kind == OutputKind::plot) write_plot(playable, path, part, written);

@@ -17,12 +17,13 @@ namespace meshtween {
 
 enum class OutputKind {
     glb,      // x.glb: a playable glTF, or one mesh where a single shape is asked for
+    usd,      // x.usda: a playable USD, or one mesh
     html,     // x.html: a page that plays the morph
     sheet,    // x.png: a contact sheet
     film,     // x.apng: a picture that moves
-    sequence, // frame_####.obj (.ply .stl .off .glb .png): one numbered file a frame
+    sequence, // frame_####.obj (or another mesh, or .png): one numbered file a frame
     plot,     // x.svg: volume, area, strain, flips and self-intersections along the path
-    mesh,     // x.obj (.ply .stl .off .vtk .vtp .usda): one mesh
+    mesh,     // x.obj (.ply .stl .off .vtk .vtp .dae .3mf): one mesh
 };
 
 struct Output {
