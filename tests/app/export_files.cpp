@@ -1,5 +1,6 @@
 // Writes what the validator and the browser look at, and meshes for the program: export_files FOLDER FOLDER
 #include "meshtween/app/export.h"
+#include "meshtween/app/usd_morph.h"
 #include "meshtween/io/gltf_write.h"
 #include "meshtween/io/mesh_io.h"
 #include "meshtween/io/output.h"
@@ -60,6 +61,22 @@ void write_bars(const std::filesystem::path& folder) {
     }
 }
 
+// A path of straight lines, which USD holds as one blend shape with in-betweens, and what it is at some moments.
+void write_straight(const Mesh& mesh, const std::filesystem::path& folder) {
+    Curve curve;
+    curve.basis = even_basis(1, 2);
+    curve.nodes = {mesh.positions, twist(mesh.positions, 3, 1), twist(mesh.positions, 3, 4)};
+    curve.keys = {0, 0.5, 1};
+    write_morph_usd(mesh, curve, weight_keys(curve), folder / "straight.usda");
+    std::string moments;
+    for (const double t : {0.0, 0.13, 0.5, 0.62, 1.0}) {
+        const Points p = curve.at(t);
+        moments += fmt::format("{}{{\"t\":{},\"vertices\":[{}]}}", moments.empty() ? "" : ",", t,
+                               fmt::join(p.data(), p.data() + p.size(), ","));
+    }
+    write_whole(folder / "straight.json", "{\"seconds\":2,\"tolerance\":1e-6,\"moments\":[" + moments + "]}");
+}
+
 } // namespace
 
 int main(int count, char** arguments) {
@@ -68,6 +85,7 @@ int main(int count, char** arguments) {
     std::filesystem::create_directories(folder);
     write_bars(arguments[2]);
     const Mesh mesh = straight_bar();
+    write_straight(mesh, arguments[2]);
     const Curve curve = twist_curve(mesh);
     const PlayOptions options{.seconds = 2, .ping_pong = true, .title = "A bar, twisted <by 180\u00b0>"};
     write_whole(folder / "mesh.glb", mesh_glb(mesh));

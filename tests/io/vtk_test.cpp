@@ -4,6 +4,7 @@
 #include "meshtween/io/mesh_file.h"
 #include "meshtween/io/mesh_io.h"
 #include "meshtween/io/output.h"
+#include "meshtween/io/space.h"
 
 #include "io/vtk_samples.h"
 #include "support/errors.h"
@@ -128,6 +129,24 @@ TEST_F(Vtk, WhatIsWrittenAnewIsReadToTheLastBit) {
         EXPECT_EQ(back.colors, mesh.colors) << name;
         EXPECT_EQ(back.texcoords, mesh.texcoords) << name;
     }
+}
+
+TEST_F(Vtk, SlicersMarkOfTheCoordinateSystemIsReadAndCarriedAlong) {
+    for (const Sample& sample : samples()) {
+        const Mesh mesh = read(sample.name, sample.bytes);
+        EXPECT_EQ(space_of(mesh), Space::lps) << sample.name;
+        for (const char* other : {"other.vtk", "other.vtp"}) {
+            Mesh moved = mesh;
+            moved.colors(0, 0) = 0.5F; // not the file's: it is written anew
+            write_mesh(moved, scratch.path(other));
+            EXPECT_EQ(space_of(read_mesh(scratch.path(other))), Space::lps) << sample.name << " to " << other;
+        }
+    }
+    std::string silent = vtk_text_5;
+    silent.replace(silent.find(" SPACE=LPS"), 10, "");
+    EXPECT_EQ(space_of(read("a.vtk", silent)), Space::lps); // by the field data
+    silent.replace(silent.find("\nLPS\n"), 5, "\nRAS\n");
+    EXPECT_EQ(space_of(read("a.vtk", silent)), Space::ras);
 }
 
 TEST_F(Vtk, PolygonsOfOtherFormatsAreKeptAndSeamsAreTold) {

@@ -3,6 +3,7 @@
 #include "meshtween/geometry/measure.h"
 #include "meshtween/io/formats.h"
 #include "meshtween/io/output.h"
+#include "meshtween/io/space.h"
 #include "meshtween/io/vtk_legacy.h"
 
 #include <fmt/format.h>
@@ -74,7 +75,10 @@ void write_colors(const Colors& colors, std::ostream& stream) {
 
 void write_new(const Mesh& mesh, std::ostream& stream) {
     const PolygonList polygons = polygons_to_write(mesh);
-    stream << fmt::format("# vtk DataFile Version 4.2\nwritten by meshtween {}\nBINARY\nDATASET POLYDATA\n", version())
+    const Space space = space_of(mesh);
+    stream << fmt::format("# vtk DataFile Version 4.2\nwritten by meshtween {}{}{}\nBINARY\nDATASET POLYDATA\n",
+                          version(),
+                          space == Space::unknown ? "" : " SPACE=", space == Space::unknown ? "" : name_of(space))
            << fmt::format("POINTS {} double\n", mesh.positions.rows()) << big_endian(mesh.positions, VtkType::float64);
     Eigen::VectorXd cells(static_cast<Eigen::Index>(polygons.corners.size() + polygons.ends.size()));
     Eigen::Index next = 0;

@@ -36,6 +36,9 @@ VtkType vtp_type_named(std::string_view name);
 int vtp_components(pugi::xml_node array);
 pugi::xml_node vtp_array(pugi::xml_node parent, const char* name);
 
+// The text of this name in the file's field data; empty where there is none. Throws Error(file) as above.
+std::string vtp_field_text(std::string_view bytes, const std::filesystem::path& path, const char* name);
+
 // An array's numbers. Throws Error(file): damaged, or other than `expected` where that is not npos.
 constexpr std::size_t any_count = static_cast<std::size_t>(-1);
 std::vector<double> vtp_numbers(const VtpFile& file, pugi::xml_node array, std::string_view what, std::size_t expected);

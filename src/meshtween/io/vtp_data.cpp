@@ -152,7 +152,7 @@ std::vector<double> vtp_numbers(const VtpFile& file, pugi::xml_node array, std::
     if (format == "ascii") {
         values = text_numbers(file, array.child_value(), what);
     } else if (format == "binary" || format == "appended") {
-        const VtkType type = vtp_type(array);
+        const VtkType type = vtp_type(array) == VtkType::text ? VtkType::int8 : vtp_type(array);
         const std::size_t size = size_of(type);
         if (size == 0)
             bad_file(file.path,

@@ -164,6 +164,20 @@ void open_vtp(VtpFile& file, std::string_view bytes, const std::filesystem::path
     for (const pugi::xml_node piece : root.child("PolyData").children("Piece")) file.pieces.push_back(piece);
 }
 
+std::string vtp_field_text(std::string_view bytes, const std::filesystem::path& path, const char* name) {
+    VtpFile file;
+    open_vtp(file, bytes, path);
+    std::string text;
+    for (const pugi::xml_node array : file.xml.child("VTKFile").child("PolyData").child("FieldData").children()) {
+        if (std::string_view(array.attribute("Name").value()) != name || vtp_type(array) != VtkType::text) continue;
+        for (const double letter : vtp_numbers(file, array, name, any_count)) {
+            if (letter == 0) break; // the end of the first text
+            text += static_cast<char>(letter);
+        }
+    }
+    return text;
+}
+
 PolygonMesh read_vtp(std::string_view bytes, const std::filesystem::path& path) {
     VtpFile file;
     open_vtp(file, bytes, path);

@@ -3,9 +3,11 @@
 #include "meshtween/geometry/measure.h"
 #include "meshtween/io/formats.h"
 #include "meshtween/io/output.h"
+#include "meshtween/io/space.h"
 #include "meshtween/io/vtp.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -163,8 +165,13 @@ void write_new(const Mesh& mesh, std::ostream& stream) {
     VtpOut out(stream);
     stream << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
               "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n"
-           << fmt::format("<!-- written by meshtween {} -->\n<PolyData>\n", version())
-           << fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+           << fmt::format("<!-- written by meshtween {} -->\n<PolyData>\n", version());
+    if (const Space space = space_of(mesh); space != Space::unknown) // as 3D Slicer names it
+        stream << fmt::format(
+            "<FieldData><Array type=\"String\" Name=\"SPACE\" NumberOfTuples=\"1\" format=\"ascii\">{} 0"
+            "</Array></FieldData>\n",
+            fmt::join(std::vector<int>(name_of(space).begin(), name_of(space).end()), " "));
+    stream << fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
                           "NumberOfPolys=\"{}\">\n",
                           mesh.positions.rows(), polygons.ends.size());
     write_point_data(mesh, stream);
