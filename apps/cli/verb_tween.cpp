@@ -27,7 +27,7 @@ void add_tween(CLI::App& app, const Common& common) {
         ->expected(-2);
     verb->add_option(
             "-o,--output", a->outputs,
-            "x.glb, x.html, x.png, x.apng, x.svg, frame_####.obj, or x.obj with --at; may be given several times")
+            "x.glb, x.usda, x.html, x.png, x.apng, x.svg, frame_####.obj, or x.obj with --at; may be given several times")
         ->required()
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
