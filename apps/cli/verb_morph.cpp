@@ -130,7 +130,7 @@ void add_morph(CLI::App& app, const Common& common) {
     with_template->excludes(markers);
     add_markers_system(*verb, a->markers_system);
     verb->add_option("-o,--output", a->outputs,
-                     "x.glb, x.html, x.png, x.apng, x.svg or frame_####.obj; may be given several times")
+                     "x.glb, x.usda, x.html, x.png, x.apng, x.svg or frame_####.obj; may be given several times")
         ->required()
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -38,18 +38,17 @@ std::string_view header_of(std::string_view bytes, std::string_view format) {
 }
 
 // VTK's field data, where Slicer names the system too.
-Space space_in_field(const MeshFile& file) {
-    if (file.format == ".vtp") {
+Space space_in_field(std::string_view bytes, std::string_view format) {
+    if (format == ".vtp") {
         try {
-            return space_named(vtp_field_text(file.bytes, file.path, "SPACE"));
+            return space_named(vtp_field_text(bytes, {}, "SPACE"));
         } catch (const Error&) {
             return Space::unknown; // what cannot be read says nothing
         }
     }
     constexpr std::string_view key = "\nSPACE 1 1 string\n";
-    const std::string_view bytes = file.bytes;
     std::size_t at = bytes.substr(0, 4096).find(key);
-    if (file.format != ".vtk" || at == std::string_view::npos) return Space::unknown;
+    if (format != ".vtk" || at == std::string_view::npos) return Space::unknown;
     at += key.size();
     if (at < bytes.size() && static_cast<unsigned char>(bytes[at]) >= 0x80) ++at; // a length, in binary files
     return space_named(bytes.substr(std::min(at, bytes.size()), 3));
@@ -68,7 +67,7 @@ Space space_in_header(std::string_view bytes, std::string_view format) {
     constexpr std::string_view key = "space=";
     const std::string header = lower(header_of(bytes, format));
     const std::size_t at = header.find(key);
-    return at == std::string::npos ? space_in_field(*mesh.file) : space_named(header.substr(at + key.size(), 3));
+    return at == std::string::npos ? space_in_field(bytes, format) : space_named(header.substr(at + key.size(), 3));
 }
 
 Space space_of(const Mesh& mesh) {
