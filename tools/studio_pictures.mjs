@@ -14,20 +14,41 @@ const [source, target, markers] = given.length === 3 ? given.map((file) => resol
   : (run('sample', 'bow', '-o', work), ['source.ply', 'target.ply', 'markers.csv'].map((end) => join(work, `bow_${end}`)))
 
 const looks = [['light', 1280, 720], ['dark', 1280, 720], ['light', 1920, 1080], ['dark', 1920, 1080]]
+
+// Leaves some projects in the list of recent ones, and comes back.
+async function visitSamples(page) {
+  const mine = await page.evaluate(() => window.studio.state.project.id)
+  for (const name of ['head', 'arms', 'bow']) {
+    await step(page, 'Models')
+    await page.locator('.samples button').filter({ has: page.getByText(name, { exact: true }) }).click()
+    await page.waitForFunction((name) => window.studio.info('target')?.name.startsWith(name), name)
+    await ready(page)
+    await page.waitForTimeout(1500) // for its picture
+  }
+  await step(page, 'Models')
+  await page.locator('.project').last().click()
+  await page.waitForFunction((id) => window.studio.state.project.id === id, mine)
+  await ready(page)
+}
+
 const step = (page, name) => page.getByRole('navigation').getByRole('button', { name }).click()
 
 try {
   const studio = await start(t, join(work, 'state'), [source, target])
   const one = await browser(t)
+  const pages = []
   for (const [scheme, width, height] of looks) {
     const page = await open(one, studio.address, { width, height }, scheme)
+    pages.push(page)
     const shot = async (name) => {
       await page.evaluate(() => window.studio.set({ toasts: [] }))
       await page.waitForTimeout(700)
       await page.screenshot({ path: join(folder, `${name}-${scheme}-${width}.png`) })
     }
     await ready(page)
+    if (page === pages[0]) await visitSamples(page)
     await step(page, 'Models')
+    await page.waitForFunction(() => [...document.querySelectorAll('.project img')].every((img) => img.naturalWidth > 0))
     await shot('models')
     await step(page, 'Markers')
     if ((await page.locator('tr[data-marker]').count()) === 0) {

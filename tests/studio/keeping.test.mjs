@@ -67,7 +67,7 @@ test('a project stays as it is while others are opened', async (t) => {
     await page.locator('[data-view=source]').focus()
     await page.evaluate(() => window.studio.store.edit('rename nose', (d) => ({ ...d, markers: d.markers.map((m) => (m.name === 'nose' ? { ...m, name: 'tip' } : m)) })))
     await saved(page)
-    await page.evaluate(() => window.studio.saver.flush())
+    await page.evaluate(() => window.studio.saver.flush(true))
     studio.child.kill('SIGKILL')
     await studio.ended
     await page.context().close()
@@ -183,6 +183,23 @@ test('replacing a model asks, carries its markers over and can be undone', async
     await page.keyboard.press('Control+z')
     await page.waitForFunction(() => window.studio.info('source')?.name === 'a.obj')
   })
+  assert.deepEqual(page.problems, [])
+})
+
+test('faces and vertices that a card names can be clicked', async (t) => {
+  const folder = scratch(t)
+  writeFileSync(join(folder, 'a.obj'), ball(1) + 'f 1 2 21\nf 1 22 43\nf 5 6 30\n')
+  writeFileSync(join(folder, 'b.obj'), ball(1))
+  const studio = await start(t, join(folder, 'state'), [join(folder, 'a.obj'), join(folder, 'b.obj')])
+  const page = await open(await browser(t), studio.address)
+  await ready(page)
+  await step(page, 'Models')
+  const named = page.locator('[data-side=source] button.link')
+  const before = await page.evaluate(() => window.studio.pane('source').pose.distance)
+  const text = await named.first().textContent()
+  assert.match(text, /^\d+(-\d+)?$/)
+  await named.first().click()
+  await page.waitForFunction((before) => window.studio.pane('source').pose.distance < before / 2, before)
   assert.deepEqual(page.problems, [])
 })
 

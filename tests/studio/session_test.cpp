@@ -1,6 +1,8 @@
 #include "session.h"
 
+#include "meshtween/fit/fit.h"
 #include "meshtween/geometry/shapes.h"
+#include "meshtween/io/mesh_file.h"
 #include "meshtween/io/mesh_io.h"
 #include "meshtween/io/output.h"
 #include "support/errors.h"
@@ -155,6 +157,50 @@ TEST(Session, a_cancelled_fit_changes_nothing) {
     session->wait();
     EXPECT_EQ(session->state()["job"]["state"], "cancelled");
     EXPECT_TRUE(session->state()["fit"].is_null());
+}
+
+TEST(Session, a_cancelled_export_leaves_nothing_half_written) {
+    House house;
+    const auto session = house.open();
+    session->set_document(House::document());
+    session->start_fit(nullptr);
+    session->wait();
+    session->start_export(
+        {{"names", {"frame_####.png", "morph.apng"}}, {"frames", 5000}, {"options", {{"method", "linear"}}}});
+    session->cancel();
+    session->wait();
+    EXPECT_EQ(session->state()["job"]["state"], "cancelled") << session->state()["job"].dump();
+    EXPECT_FALSE(fs::exists(house.project.parent_path() / "exports" / "morph.apng"));
+    for (const auto& entry : fs::recursive_directory_iterator(house.project.parent_path()))
+        EXPECT_NE(entry.path().extension(), ".tmp") << entry.path();
+}
+
+TEST(Session, a_fit_says_what_it_does_before_it_moves_anything) {
+    const Mesh ball = sphere(3);
+    std::vector<std::string> stages;
+    fit(ball, ball, {}, {}, [&](double, std::string_view stage) {
+        if (stages.empty() || stages.back() != stage) stages.emplace_back(stage);
+        return true;
+    });
+    ASSERT_GE(stages.size(), 4U);
+    EXPECT_EQ(stages[0], "numbering the meshes");
+    EXPECT_EQ(stages[1], "aligning");
+    EXPECT_EQ(stages[2], "preparing coarse levels");
+}
+
+TEST(Session, tells_of_a_mesh_what_was_noted_while_it_was_read) {
+    House house;
+    const auto session = house.open();
+    const Mesh ball = sphere(2);
+    const fs::path file = house.scratch.path("noted.obj");
+    write_mesh(ball, file);
+    const std::string text = read_whole(file) + "f 1 2\n"; // a face of two corners does not affect the shape
+    const Json found = session->add_model(Side::source, "noted.obj", text);
+    const fs::path same = house.scratch.file("same.obj", text);
+    const Mesh read = read_mesh(same);
+    ASSERT_TRUE(read.file);
+    EXPECT_EQ(found["notes"], Json(read.file->notes)) << "the library's own words";
+    EXPECT_FALSE(found["notes"].empty());
 }
 
 TEST(Session, notices_a_mesh_that_changed) {

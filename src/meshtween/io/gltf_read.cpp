@@ -218,8 +218,8 @@ void GltfReader::add_notes() {
 PolygonMesh read_gltf(std::string_view bytes, const std::filesystem::path& path) {
     try {
         return GltfReader(bytes, path).read();
-    } catch (const json::exception& error) { // a value of another type than glTF wants
-        bad_file(path, fmt::format("is damaged: {:.120}", error.what()));
+    } catch (const json::exception&) {
+        bad_file(path, "is damaged: a value in its JSON is missing or of another type than glTF wants");
     }
 }
 

@@ -207,9 +207,11 @@ MarkerFile read_marker_json(std::string_view bytes, const std::filesystem::path&
     ordered_json root;
     try {
         root = ordered_json::parse(bytes.begin(), bytes.end());
-    } catch (const ordered_json::exception& error) {
-        bad_file(path,
-                 fmt::format("its JSON cannot be read ({:.120}); it is truncated or of another format", error.what()));
+    } catch (const ordered_json::parse_error& error) {
+        bad_file(path, fmt::format("its JSON cannot be read beyond byte {}; it is truncated or of another format",
+                                   error.byte));
+    } catch (const ordered_json::exception&) {
+        bad_file(path, "its JSON holds a number that is too large; it is damaged or of another format");
     }
     if (!root.is_array() && !root.is_object())
         bad_file(path, "holds neither Slicer's markups nor Wrap's points on triangles");

@@ -14,7 +14,7 @@ const sending = (busy: Busy, name: string) => (part: number) => {
 const stemOf = (name: string) => name.replace(/\.[^.]+$/, '')
 
 async function enter(how: () => Promise<unknown>) {
-  await app.saver.flush()
+  await app.saver.flush(true)
   await how()
   await app.refresh(true)
 }
@@ -98,10 +98,15 @@ export const saveCopy = () =>
     downloadBlob(new Blob([packed as Uint8Array<ArrayBuffer>], { type: 'application/zip' }), `${projectName()}.zip`)
   }, 'Packing the project', true)
 
-export function projectName(): string {
-  const [source, target] = sides.map((side) => app.info(side)?.name)
-  return source && target ? `${stemOf(source)} to ${stemOf(target)}` : 'project'
+// What a project is called: after its models, or after what their names have in common.
+export function titleOf(source: string, target: string): string {
+  const [from, to] = [stemOf(source), stemOf(target)]
+  const [one, other] = [/^(.+)[ _-]source$/i.exec(from)?.[1], /^(.+)[ _-]target$/i.exec(to)?.[1]]
+  if (one && one === other) return one
+  return `${from || '…'} to ${to || '…'}`
 }
+
+const projectName = () => (app.info('source') && app.info('target') ? titleOf(app.info('source')!.name, app.info('target')!.name) : 'project')
 
 export const openModel = async (side: Side, file: File) => {
   const found = await app.attempt((busy, signal) => api.upload(side, file, sending(busy, file.name), signal), `Sending ${file.name}`, true)
@@ -125,7 +130,7 @@ async function takeModel(side: Side, found: Examined) {
     const lines: string[] = []
     if (kept > 0) lines.push(`${few(kept, 'One of its markers lies', 'of its markers lie')} on the new model and ${kept === 1 ? 'is' : 'are'} kept there.`)
     if (lost.length > 0)
-      lines.push(`${few(lost.length, 'One lies', 'lie')} too far from it and ${lost.length === 1 ? 'becomes' : 'become'} missing on the ${side}: ${lost.slice(0, 8).join(', ')}${lost.length > 8 ? ', …' : ''}.`)
+      lines.push(`${few(lost.length, 'One lies', 'lie')} too far from it and ${lost.length === 1 ? 'becomes' : 'become'} missing on the ${side}: ${lost.slice(0, 8).join(', ')}${lost.length > 8 ? ' …' : '.'}`)
     if (app.state?.fit) lines.push('The fit is of the old model and is put aside.')
     lines.push('Undo brings everything back.')
     const title = now ? (found.name === now.name ? `Read ${found.name} again?` : `Replace ${now.name} by ${found.name}?`) : `Open ${found.name} as the ${side}?`

@@ -31,10 +31,10 @@ export class Saver {
     return !this.waiting && !this.running
   }
 
-  // Resolves when it is so.
-  async flush() {
+  // Resolves when it is so; where the project is left, with what can be undone.
+  async flush(leaving = false) {
     await this.running
-    if (this.historyWaits) await this.saveHistory()
+    if (leaving && this.historyWaits) await this.saveHistory()
   }
 
   private async saveHistory() {

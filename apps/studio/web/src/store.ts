@@ -1,5 +1,5 @@
 // The document and its history. There is one kind of command: an edit, which holds the document before and after it.
-import type { Document } from './types'
+import type { Document, Side } from './types'
 
 interface Edit {
   label: string
@@ -53,6 +53,13 @@ class Packer {
 
 const unpack = (documents: Packed[], parts: any[]): Document[] =>
   documents.map(({ markers, dabs, rest }) => ({ ...parts[rest], markers: markers.map((i) => parts[i]), timing: { dabs: dabs.map((i) => parts[i]) } }))
+
+// A model that has another hash than before in the same file has changed on disk: what it was before is not there any
+// more, and what can be undone is of what it is now.
+const ofToday = (document: Document, now: Document): Document => {
+  const today = (side: Side) => (document.models[side]?.path === now.models[side]?.path ? now.models[side] : document.models[side])
+  return { ...document, models: { source: today('source'), target: today('target') } }
+}
 
 export class Store {
   document = emptyDocument()
@@ -138,7 +145,7 @@ export class Store {
   recall(history: string) {
     const told = JSON.parse(history)
     if (!told?.documents) return
-    const documents = unpack(told.documents, told.parts)
+    const documents = unpack(told.documents, told.parts).map((document) => ofToday(document, this.document))
     const edits = (list: { label: string; before: number; after: number }[]): Edit[] =>
       list.map(({ label, before, after }) => ({ label, before: documents[before], after: documents[after] }))
     this.past = edits(told.past)

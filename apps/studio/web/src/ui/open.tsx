@@ -41,7 +41,7 @@ function MeshCard({ side }: { side: Side }) {
           </small>
           {info.notes.map((note) => (
             <small key={note}>
-              <Linked text={note} side={side} />
+              <Linked text={note} />
             </small>
           ))}
           {info.findings.map((finding) => (

@@ -2,7 +2,7 @@
 import { useEffect, useState } from 'preact/hooks'
 import { api } from '../api'
 import { app } from '../app'
-import { goBackTo, openProject, openRecent, saveCopy, startNew } from '../projects'
+import { goBackTo, openProject, openRecent, saveCopy, startNew, titleOf } from '../projects'
 import type { KeptState, ProjectInfo } from '../types'
 import { Button, chooseFiles, Section } from './parts'
 
@@ -35,16 +35,15 @@ function useTold<T>(ask: () => Promise<T[]>, key: unknown): T[] {
 }
 
 function Project({ project }: { project: ProjectInfo }) {
-  const stem = (name: string) => name.replace(/\.[^.]+$/, '')
-  const title = [project.source, project.target].map((name) => (name ? stem(name) : '…')).join(' to ')
   return (
     <button type="button" class="project" title={`${project.source || 'no source'}, ${project.target || 'no target'}`} disabled={app.readOnly || app.running} onClick={() => void openRecent(project.id)}>
       {project.picture ? <img src={`api/projects/picture?id=${encodeURIComponent(project.id)}&at=${project.saved}`} alt="" loading="lazy" /> : <i class="nothing" />}
-      <b>{title}</b>
+      <b>{titleOf(project.source, project.target)}</b>
       <small>
         {markersOf(project.markers)}
-        {project.fitted && ', fitted'} · {when(project.saved)}
+        {project.fitted && ', fitted'}
       </small>
+      <small>{when(project.saved)}</small>
     </button>
   )
 }

@@ -27,6 +27,19 @@ function markersIn(text: string): { at: number; name: string; id: string }[] {
   return found.sort((a, b) => a.at - b.at)
 }
 
+// The faces, vertices and edges that a sentence names by number: "face 4", "edge 12-47 belongs to three faces (5, 9 and
+// 11)". A number before the word is a count.
+function elementsIn(text: string): { at: number; text: string; what: string; number: number }[] {
+  const found: { at: number; text: string; what: string; number: number }[] = []
+  let kind = ''
+  const word = /\b(face|triangle|edge)s?\b|\b(vertex|vertices)\b|(?<![\d.-]|lines? )\b(\d+)(?:-\d+)?\b(?![.\d]*\d| ?%| (?:faces|triangles|edges|vertices|more|pairs|of)\b)/g
+  for (const match of text.matchAll(word)) {
+    if (match[1] || match[2]) kind = match[2] || match[1] === 'edge' ? 'vertex' : 'face'
+    else if (kind) found.push({ at: match.index!, text: match[0], what: kind, number: Number(match[3]) })
+  }
+  return found
+}
+
 function pieces(text: string, side?: Side): Piece[] {
   const marks: { at: number; text: string; show: () => void }[] = markersIn(text).map(({ at, name, id }) => ({
     at,
@@ -38,9 +51,9 @@ function pieces(text: string, side?: Side): Piece[] {
     },
   }))
   if (side && app.models[side])
-    for (const found of text.matchAll(/\b(vertex|face|triangle) (\d+)\b/g)) {
-      const at = placeNamed(side, found[1], Number(found[2]))
-      if (at) marks.push({ at: found.index!, text: found[0], show: () => (app.shown.add(side), app.changed(), flyTo(side, at, 0.35)) })
+    for (const { at, text: shown, what, number } of elementsIn(text)) {
+      const place = placeNamed(side, what, number)
+      if (place) marks.push({ at, text: shown, show: () => (app.shown.add(side), app.changed(), flyTo(side, place, 0.35)) })
     }
   marks.sort((a, b) => a.at - b.at)
   const list: Piece[] = []
