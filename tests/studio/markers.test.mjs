@@ -127,7 +127,7 @@ test('one side alone, files in the wrong order, and markers off their model', as
   await t.test('two files in the wrong order are swapped, with a word', async () => {
     await put(page, [])
     await drop(page, '.panel', [{ name: 'one.csv', text: table(list.map(([name, at]) => [name, there(at)])) }, { name: 'two.csv', text: table(list) }])
-    await told.filter({ hasText: 'the two files came the other way round: two.csv lies on the source' }).waitFor()
+    await told.filter({ hasText: 'one.csv lies on the target and two.csv on the source: the two files are taken the other way round' }).waitFor()
     const found = await markers(page)
     assert.deepEqual(found.map((m) => m.source), list.map(([, at]) => at))
   })

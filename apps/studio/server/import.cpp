@@ -31,12 +31,6 @@ std::vector<Point> places_of(const std::vector<Landmark>& landmarks) {
     return points;
 }
 
-double part_on(const OpenMesh& source, const OpenMesh& target, const MarkerPairs& read) {
-    std::vector<Point> from, to;
-    for (const MarkerPair& pair : read.pairs) from.push_back(pair.source), to.push_back(pair.target);
-    return std::min(part_on(source, from), part_on(target, to));
-}
-
 // The library leaves out what is not on both sides; here it waits for its other side.
 std::vector<std::string> notes_of(const MarkerPairs& read) {
     std::vector<std::string> notes = read.notes;
@@ -59,10 +53,32 @@ std::optional<Point> place_of(const MarkerPlace& place, const Mesh& mesh) {
     return std::nullopt;
 }
 
-// Rows of a file of pairs that have one side. The library has read the file before: indices are in range.
-void take_halves(const MarkerFile& file, const Mesh& source, const Mesh& target, ImportedMarkers& result) {
-    for (std::size_t i = 0; i < file.rows.size(); ++i) {
-        const MarkerRow& row = file.rows[i];
+bool holds(const Specimen& specimen, const Point& point) {
+    return std::any_of(specimen.rows.begin(), specimen.rows.end(), [&](const MarkerRow& row) {
+        const auto* place = std::get_if<Point>(&row.places[0]);
+        return place != nullptr && *place == point;
+    });
+}
+
+// The rows of a file of pairs; two specimens side by side, in the order in which the library has taken them.
+std::vector<MarkerRow> rows_of(const MarkerFile& file, const MarkerPairs& read) {
+    if (file.specimens.size() != 2) return file.rows;
+    const Specimen* source = file.specimens.data();
+    const Specimen* target = source + 1;
+    if (!read.pairs.empty() && !holds(*source, read.pairs[0].source) && holds(*target, read.pairs[0].source))
+        std::swap(source, target);
+    std::vector<MarkerRow> rows;
+    for (std::size_t i = 0; i < std::min(source->rows.size(), target->rows.size()); ++i) {
+        rows.push_back(source->rows[i]);
+        rows.back().places.push_back(target->rows[i].places[0]);
+    }
+    return rows;
+}
+
+// Rows that have one side. The library has read the file before: indices are in range.
+void take_halves(const std::vector<MarkerRow>& rows, const Mesh& source, const Mesh& target, ImportedMarkers& result) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const MarkerRow& row = rows[i];
         PartialPair pair{row.name.empty() ? std::to_string(i + 1) : row.name, place_of(row.places[0], source),
                          place_of(row.places[1], target)};
         if (pair.source.has_value() != pair.target.has_value()) result.markers.push_back(std::move(pair));
@@ -136,8 +152,9 @@ ImportedMarkers import_markers(const fs::path& file, const fs::path& second, std
     const MarkerFile raw = read_marker_file(file);
     if (raw.sides == 1 && raw.specimens.size() != 2) return one_side(file, raw, side, source, target);
     ImportedMarkers result;
-    take_pairs(read_marker_pairs(file, source.mesh, target.mesh), result);
-    take_halves(raw, source.mesh, target.mesh, result);
+    const MarkerPairs read = read_marker_pairs(file, source.mesh, target.mesh);
+    take_pairs(read, result);
+    take_halves(rows_of(raw, read), source.mesh, target.mesh, result);
     return result;
 }
 
