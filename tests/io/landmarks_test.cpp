@@ -277,7 +277,7 @@ TEST_F(Systems, SilentOnesAreToldAndCanBeSaid) {
     const std::string said = message_of(ErrorKind::file, [&] { read_marker_pairs(good, wrong, mesh, far); });
     EXPECT_NE(said.find("wrong.csv: 9 of 9 markers lie further from the target"), std::string::npos) << said;
     EXPECT_EQ(said.find("good.csv"), std::string::npos) << said;
-    EXPECT_NE(said.find("give --markers-system RAS"), std::string::npos) << said;
+    EXPECT_NE(said.find("give --markers-system LPS,RAS"), std::string::npos) << said;
     expect_right(read_marker_pairs(good, wrong, mesh, far, {{Space::lps, Space::ras}}));
     expect_right(read_marker_pairs(csv("a.csv", mesh, true), wrong, mesh, far, {{Space::ras, Space::ras}}));
     name(far, "far.ply", "RAS");

@@ -108,7 +108,7 @@ std::vector<Cause> causes() {
     return result;
 }
 
-std::string likely_remedy(const Points& places, const Surface& own, const NamedMesh& other, Space turning) {
+std::string likely_remedy(const Points& places, const Surface& own, const NamedMesh& other, const std::string& system) {
     constexpr Eigen::Index most = 64;
     const Points some = places.topRows(std::min(places.rows(), most));
     if (other.mesh != nullptr && nearly_all(near_flags(some, Surface(*other.mesh))))
@@ -117,9 +117,8 @@ std::string likely_remedy(const Points& places, const Surface& own, const NamedM
         if (const Points mended = some * cause.undo.transpose();
             diagonal(mended) > far_away * own.diagonal() && nearly_all(near_flags(mended, own))) // not all in one spot
             return fmt::format("they would lie on it if one would {}; {}", cause.remedy,
-                               turning != Space::unknown &&
-                                       cause.undo == Eigen::Vector3d(-1, -1, 1).asDiagonal().toDenseMatrix()
-                                   ? fmt::format("do that to the file, or give --markers-system {}", name_of(turning))
+                               !system.empty() && cause.undo == Eigen::Vector3d(-1, -1, 1).asDiagonal().toDenseMatrix()
+                                   ? fmt::format("do that to the file, or give --markers-system {}", system)
                                    : "do that to the file");
     return "see whether they belong to this model, in this place";
 }
@@ -127,7 +126,7 @@ std::string likely_remedy(const Points& places, const Surface& own, const NamedM
 } // namespace
 
 MarkerDistances marker_distances(const Points& places, const std::vector<std::string>& names, const NamedMesh& own,
-                                 const NamedMesh& other, Space turning, std::string_view what) {
+                                 const NamedMesh& other, const std::string& system, std::string_view what) {
     MarkerDistances result;
     if (names.empty() || own.mesh->triangles.rows() == 0) return result;
     const Surface surface(*own.mesh);
@@ -146,7 +145,7 @@ MarkerDistances marker_distances(const Points& places, const std::vector<std::st
     constexpr std::size_t most = 5;
     const bool few = 2 * count < names.size(); // a wrong unit or axis moves most of them
     const std::string remedy =
-        few ? "see whether they are where they should be" : likely_remedy(places, surface, other, turning);
+        few ? "see whether they are where they should be" : likely_remedy(places, surface, other, system);
     result.elsewhere = 2 * far_off > names.size();
     result.note = fmt::format(
         "{} of {} {} lie further from the {} than 5 % of its diagonal, up to {:.3g} % ({}{}): {}", count, names.size(),
@@ -165,8 +164,7 @@ std::vector<std::string> far_markers(const std::vector<MarkerPair>& pairs, const
         names.push_back(pair.name);
     }
     const NamedMesh a{&source, "source"}, b{&target, "target"};
-    for (MarkerDistances far : {marker_distances(sources, names, a, b, Space::unknown),
-                                marker_distances(targets, names, b, a, Space::unknown)})
+    for (MarkerDistances far : {marker_distances(sources, names, a, b, {}), marker_distances(targets, names, b, a, {})})
         if (!far.note.empty()) notes.push_back(std::move(far.note));
     return notes;
 }

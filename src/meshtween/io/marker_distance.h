@@ -24,10 +24,10 @@ struct NamedMesh {
     std::string name;
 };
 
-// `other`: the other side's mesh, for markers that lie on it instead; none where there is one side. `turning`: the
-// system to offer where the signs of x and y are wrong; none is offered where it is unknown.
+// `other`: the other side's mesh, for markers that lie on it instead; none where there is one side. `system`: what to
+// offer with --markers-system where the signs of x and y are wrong; nothing where it is empty.
 MarkerDistances marker_distances(const Points& places, const std::vector<std::string>& names, const NamedMesh& own,
-                                 const NamedMesh& other, Space turning, std::string_view what = "markers");
+                                 const NamedMesh& other, const std::string& system, std::string_view what = "markers");
 
 // What is told of pairs that are in no file: a sentence for each side where some are far off.
 std::vector<std::string> far_markers(const std::vector<MarkerPair>& pairs, const Mesh& source, const Mesh& target);

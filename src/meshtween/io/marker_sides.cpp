@@ -143,9 +143,15 @@ bool lies_on(const MarkerSide& side, const Mesh& mesh) {
     return lie_on(points_of(side.rows, false), mesh);
 }
 
-Space system_that_turns(const MarkerSide& side) {
-    const Space mesh = side.mesh_space == Space::unknown ? Space::lps : side.mesh_space;
-    return side.turned ? mesh : other(mesh);
+std::string systems_to_say(std::span<const MarkerSide> sides) {
+    std::string result;
+    for (const MarkerSide& side : sides) {
+        const Space mesh = side.mesh_space == Space::unknown ? Space::lps : side.mesh_space;
+        const bool turn = !lies_on(side, *side.mesh);
+        const std::string word(name_of(side.turned == turn ? mesh : other(mesh)));
+        if (result != word) result += (result.empty() ? "" : ",") + word;
+    }
+    return result;
 }
 
 } // namespace meshtween

@@ -40,7 +40,8 @@ std::vector<std::optional<Point>> resolve(const MarkerSide& side);
 // Whether nearly all of the side's points lie on the mesh.
 bool lies_on(const MarkerSide& side, const Mesh& mesh);
 
-// The system to give with --markers-system so that x and y change their signs.
-Space system_that_turns(const MarkerSide& side);
+// What to give with --markers-system so that x and y of the sides that do not lie on their mesh
+// change their signs and the others stay: "RAS", or "LPS,RAS" for two that differ.
+std::string systems_to_say(std::span<const MarkerSide> sides);
 
 } // namespace meshtween

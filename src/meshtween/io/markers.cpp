@@ -109,6 +109,7 @@ void add_distances(MarkerPairs& result, const TwoSides& sides) {
     std::vector<std::string> names, told;
     for (const MarkerPair& pair : result.pairs) names.push_back(pair.name);
     const std::array<NamedMesh, 2> meshes{NamedMesh{sides[0].mesh, "source"}, NamedMesh{sides[1].mesh, "target"}};
+    const std::string systems = systems_to_say(sides);
     bool elsewhere = false;
     for (std::size_t k = 0; k < 2; ++k) {
         Points places(std::ssize(result.pairs), 3);
@@ -116,8 +117,7 @@ void add_distances(MarkerPairs& result, const TwoSides& sides) {
             const MarkerPair& pair = result.pairs[static_cast<std::size_t>(i)];
             places.row(i) = k == 0 ? pair.source : pair.target;
         }
-        const MarkerDistances far =
-            marker_distances(places, names, meshes[k], meshes[1 - k], system_that_turns(sides[k]));
+        const MarkerDistances far = marker_distances(places, names, meshes[k], meshes[1 - k], systems);
         if (far.note.empty()) continue;
         result.notes.push_back(fmt::format("{}: {}", sides[k].path.string(), far.note));
         const bool same_file = !told.empty() && sides[0].path == sides[1].path;
@@ -273,7 +273,7 @@ Landmarks read_landmarks(const fs::path& path, const Mesh& mesh, const MarkerRea
         result.notes.push_back(
             fmt::format("{}: {} points are missing: {}", path.string(), missing.size(), some_of(missing)));
     MarkerDistances far = marker_distances(places.topRows(std::ssize(names)), names, {&mesh, "mesh"}, {},
-                                           system_that_turns(side), "points");
+                                           systems_to_say(sides), "points");
     if (far.elsewhere && !reading.anywhere) bad_file(path, far.note);
     if (!far.note.empty()) result.notes.push_back(fmt::format("{}: {}", path.string(), far.note));
     result.far_names = std::move(far.far_names);

@@ -73,7 +73,7 @@ RotationMarkers read_rotation_markers(const std::filesystem::path& path, const M
         names.push_back(sides[0].rows[i].name);
     }
     if (turn.empty()) bad_file(path, "no row has the role turn, so nothing would turn");
-    const MarkerDistances far = marker_distances(as_rows(all), names, {&mesh, "mesh"}, {}, system_that_turns(sides[0]));
+    const MarkerDistances far = marker_distances(as_rows(all), names, {&mesh, "mesh"}, {}, systems_to_say(sides));
     if (!far.note.empty()) markers.notes.push_back(fmt::format("{}: {}", path.string(), far.note));
     markers.turn = as_rows(turn);
     markers.hold = as_rows(hold);
