@@ -114,9 +114,9 @@ TEST_F(Usd, GroupsMaterialsAndTheirPictures) {
     EXPECT_TRUE(has(text, "int[] indices = [5]\n"));
     EXPECT_TRUE(has(text, "def Material \"_2nd__skin_\""));
     EXPECT_TRUE(has(text, "displayName = \"2nd \\\"skin\\\"\""));
-    EXPECT_TRUE(has(text, "asset inputs:file = @./a_0.png@"));
-    EXPECT_EQ(read_whole(scratch.path("a_0.png")), "PNG");
-    EXPECT_EQ(notes.size(), 1U);
+    EXPECT_TRUE(has(text, "asset inputs:file = @skin.png@"));
+    EXPECT_EQ(read_whole(scratch.path("skin.png")), "PNG");
+    EXPECT_TRUE(notes.empty()) << notes[0];
 }
 
 TEST_F(Usd, WhatDoesNotAgreeIsRefused) {

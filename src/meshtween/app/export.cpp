@@ -1,6 +1,7 @@
 #include "meshtween/app/export.h"
 
 #include "meshtween/core/error.h"
+#include "meshtween/io/base64.h"
 #include "meshtween/io/gltf_write.h"
 
 #include <fmt/format.h>
@@ -33,19 +34,6 @@ void check(const Mesh& mesh, const Curve& curve) {
         if (node.rows() != mesh.positions.rows())
             throw Error(ErrorKind::argument, fmt::format("a shape of the curve has {} vertices, but the mesh has {}",
                                                          node.rows(), mesh.positions.rows()));
-}
-
-std::string base64(std::string_view bytes) {
-    constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string result;
-    result.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::uint32_t word = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            word = word << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-        for (std::size_t k = 0; k < 4; ++k) result += i + k <= bytes.size() ? digits[word >> (18 - 6 * k) & 63] : '=';
-    }
-    return result;
 }
 
 std::string html_escaped(std::string_view text) {
@@ -101,7 +89,7 @@ std::string morph_html(const std::string& glb, const PlayOptions& options) {
     const std::pair<std::string_view, std::string> parts[] = {
         {"@@TITLE@@", html_escaped(options.title.empty() ? "Morph" : options.title)},
         {"@@OPTIONS@@", played.dump()},
-        {"@@MODEL@@", base64(glb)},
+        {"@@MODEL@@", to_base64(glb)},
     };
     std::string_view rest(meshtween_player_begin,
                           static_cast<std::size_t>(meshtween_player_end - meshtween_player_begin));

@@ -4,9 +4,9 @@
 #include "meshtween/core/error.h"
 #include "meshtween/geometry/measure.h"
 #include "meshtween/io/formats.h"
+#include "meshtween/io/mesh_file.h"
 #include "meshtween/io/output.h"
 #include "meshtween/io/text.h"
-#include "meshtween/io/vtk.h"
 
 #include <fmt/format.h>
 
@@ -28,17 +28,17 @@ namespace fs = std::filesystem;
 struct Unseamed {
     std::vector<int> vertices;  // of the mesh, a written vertex each; the first n are 0 .. n-1
     std::vector<int> texcoords; // a row of the mesh's, or -1
-    PolygonList polygons;       // of written vertices
+    WrittenPolygons polygons;   // of written vertices
 };
 
 Unseamed unseamed(const Mesh& mesh) {
     Unseamed result;
-    result.polygons = polygons_to_write(mesh);
+    result.polygons = written_polygons(mesh);
     const auto count = static_cast<std::size_t>(mesh.positions.rows());
     for (std::size_t v = 0; v < count; ++v) result.vertices.push_back(static_cast<int>(v));
     result.texcoords.assign(count, -1);
     if (mesh.texcoords.rows() == 0) return result;
-    const std::vector<int> wanted = texcoords_of_corners(mesh, result.polygons);
+    const std::vector<int>& wanted = result.polygons.texcoord_corners;
     std::vector<int> next(count, -1); // the next copy of the same vertex
     for (std::size_t c = 0; c < wanted.size(); ++c) {
         const int vertex = result.polygons.corners[c];

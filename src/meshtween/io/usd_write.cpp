@@ -11,7 +11,6 @@
 #include "meshtween/io/output.h"
 #include "meshtween/io/usd_material.h"
 #include "meshtween/io/usd_text.h"
-#include "meshtween/io/vtk.h"
 
 #include <fmt/format.h>
 
@@ -35,7 +34,7 @@ struct UsdScene {
     const UsdMorph& morph;
     Point origin{0, 0, 0};
     Floats positions, normals; // of the base
-    PolygonList polygons;
+    WrittenPolygons polygons;
 };
 
 void put_extent(TextOut& out, const UsdScene& scene, const char* indent) {
@@ -48,6 +47,20 @@ void put_extent(TextOut& out, const UsdScene& scene, const char* indent) {
     }
     out.put("{}float3[] extent = ", indent);
     put_rows(out, corners);
+}
+
+// A normal a corner, as the mesh's file has them, with its edges.
+Floats corner_normals(const UsdScene& scene) {
+    Floats result(static_cast<Eigen::Index>(scene.polygons.corners.size()), 3);
+    for (Eigen::Index c = 0; c < result.rows(); ++c) {
+        const auto corner = static_cast<std::size_t>(c);
+        const int normal = scene.polygons.normal_corners[corner];
+        if (normal >= 0)
+            result.row(c) = scene.polygons.normals.row(normal).cast<float>();
+        else
+            result.row(c) = scene.normals.row(scene.polygons.corners[corner]);
+    }
+    return result;
 }
 
 void put_colors(TextOut& out, const Mesh& mesh) {
@@ -81,13 +94,16 @@ void put_geometry(TextOut& out, const UsdScene& scene) {
     out.put("        point3f[] points = ");
     put_rows(out, scene.positions);
     out.put("        normal3f[] normals = ");
-    put_rows(out, scene.normals, "interpolation = \"vertex\"");
+    if (scene.morph.shapes.empty() && scene.polygons.normal_corners.size() == scene.polygons.corners.size())
+        put_rows(out, corner_normals(scene), "interpolation = \"faceVarying\"");
+    else
+        put_rows(out, scene.normals, "interpolation = \"vertex\"");
     put_colors(out, mesh);
     if (mesh.texcoords.rows() == 0) return;
     out.put("        texCoord2f[] primvars:st = ");
     put_rows(out, mesh.texcoords, "interpolation = \"faceVarying\"");
     out.put("        int[] primvars:st:indices = ");
-    put_list(out, texcoords_of_corners(mesh, scene.polygons));
+    put_list(out, scene.polygons.texcoord_corners);
 }
 
 // Faces by name: what a group or a material covers.
@@ -296,7 +312,7 @@ Point origin_of(const Points& positions) {
 std::vector<std::string> write_usd(const Mesh& mesh, const UsdMorph& morph, const std::filesystem::path& path,
                                    const WriteOptions& options) {
     check_morph(mesh, morph);
-    UsdScene scene{mesh, morph, origin_of(mesh.positions), {}, {}, polygons_to_write(mesh)};
+    UsdScene scene{mesh, morph, origin_of(mesh.positions), {}, {}, written_polygons(mesh)};
     scene.positions = (mesh.positions.rowwise() - scene.origin).cast<float>();
     scene.normals = morph.normals.empty() ? vertex_normals(mesh.positions, mesh.triangles).cast<float>().eval()
                                           : morph.normals.front().cast<float>().eval();

@@ -2,6 +2,7 @@
 #include "meshtween/io/vtk.h"
 
 #include "meshtween/geometry/measure.h"
+#include "meshtween/io/file_normals.h"
 #include "meshtween/io/formats.h"
 #include "meshtween/io/text.h"
 
@@ -14,7 +15,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <map>
 
 namespace meshtween {
 namespace {
@@ -247,21 +247,10 @@ void take_point_arrays(VtkSurface& surface, std::vector<VtkArray>&& arrays) {
     }
 }
 
-Points renewed_normals(const Mesh& read, const Points& positions) {
-    const Points& normals = read.file->normals;
-    std::map<std::array<double, 6>, int> first;
-    std::vector<int> same(static_cast<std::size_t>(positions.rows()));
-    for (Eigen::Index i = 0; i < positions.rows(); ++i) {
-        const auto p = read.positions.row(i), n = normals.row(i);
-        same[static_cast<std::size_t>(i)] =
-            first.emplace(std::array{p[0], p[1], p[2], n[0], n[1], n[2]}, static_cast<int>(i)).first->second;
-    }
-    const Triangles joined = read.triangles.unaryExpr([&](int v) { return same[static_cast<std::size_t>(v)]; });
-    const Points before = vertex_normals(read.positions, joined);
-    Points now = vertex_normals(positions, joined);
-    if (before.cwiseProduct(normals).sum() < 0) now = -now;
-    for (Eigen::Index i = 0; i < now.rows(); ++i) now.row(i) = now.row(same[static_cast<std::size_t>(i)]).eval();
-    return now;
+Points renewed_normals(const Mesh& read, const Mesh& mesh) {
+    const Points normals = file_normals(mesh), before = vertex_normals(read.positions, read.triangles);
+    const bool inwards = before.cwiseProduct(mesh.file->normals).sum() < 0;
+    return inwards ? Points(-normals) : normals;
 }
 
 Texcoords texcoords_of_vertices(const Mesh& mesh) {
@@ -274,31 +263,6 @@ Texcoords texcoords_of_vertices(const Mesh& mesh) {
         if (before >= 0 && mesh.texcoords.row(before) != mesh.texcoords.row(index)) return {};
         before = index;
         result.row(vertex) = mesh.texcoords.row(index);
-    }
-    return result;
-}
-
-PolygonList polygons_to_write(const Mesh& mesh) {
-    if (is_described(mesh)) return {mesh.file->corners, mesh.file->ends};
-    PolygonList list;
-    list.corners.assign(mesh.triangles.data(), mesh.triangles.data() + mesh.triangles.size());
-    for (Eigen::Index t = 1; t <= mesh.triangles.rows(); ++t) list.ends.push_back(static_cast<int>(3 * t));
-    return list;
-}
-
-std::vector<int> texcoords_of_corners(const Mesh& mesh, const PolygonList& polygons) {
-    std::vector<int> result(polygons.corners.size(), -1);
-    const bool described = is_described(mesh);
-    for (Eigen::Index i = 0; i < mesh.texcoord_triangles.size(); ++i) {
-        const Eigen::Index corner = described ? mesh.file->cut.data()[i] : i;
-        result[static_cast<std::size_t>(corner)] = mesh.texcoord_triangles.data()[i];
-    }
-    std::size_t begin = 0; // a corner that repeats the one before it is in no triangle
-    for (const int end : polygons.ends) {
-        int known = 0;
-        for (std::size_t c = begin; c < static_cast<std::size_t>(end); ++c) known = std::max(known, result[c]);
-        for (; begin < static_cast<std::size_t>(end); ++begin)
-            if (result[begin] < 0) result[begin] = known;
     }
     return result;
 }

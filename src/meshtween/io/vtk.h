@@ -53,21 +53,11 @@ struct VtkArray {
 };
 void take_point_arrays(VtkSurface& surface, std::vector<VtkArray>&& arrays);
 
-// Normals for these positions, one a vertex: vertices that lay in one place with one normal are one still, and normals
-// that pointed inwards do so again. `read` is the mesh as the file has it.
-Points renewed_normals(const Mesh& read, const Points& positions);
+// Normals for the mesh's shape, as file_normals; they point inwards where the file's did. `read` is the mesh as it was.
+Points renewed_normals(const Mesh& read, const Mesh& mesh);
 
 // One row of texture coordinates a vertex; none where some vertex has two, on a seam.
 Texcoords texcoords_of_vertices(const Mesh& mesh);
-
-// The polygons to write: those of the mesh's file where it describes the mesh, else the triangles.
-struct PolygonList {
-    std::vector<int> corners, ends;
-};
-PolygonList polygons_to_write(const Mesh& mesh);
-
-// The texture coordinate of each corner of polygons_to_write.
-std::vector<int> texcoords_of_corners(const Mesh& mesh, const PolygonList& polygons);
 
 // A sentence where texture coordinates have seams, which neither format can hold without more vertices.
 std::vector<std::string> seams_left_behind(const Mesh& mesh, const std::filesystem::path& path);

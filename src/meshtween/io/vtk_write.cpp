@@ -50,13 +50,14 @@ void splice(std::string& bytes, const VtkBlock& block, std::size_t type_at, cons
 }
 
 std::string rewritten(const Mesh& mesh) {
+    if (shape_key(mesh) == mesh.file->shape) return mesh.file->bytes;
     const std::string& file = mesh.file->bytes;
     VtkLegacyFile scanned = scan_vtk(file, mesh.file->path);
     const bool has_normals = scanned.normals.begin != 0;
     Points normals;
     if (has_normals) {
         const Triangles cut = mesh.file->cut;
-        normals = renewed_normals(cut_mesh(std::move(scanned.mesh), cut), mesh.positions);
+        normals = renewed_normals(cut_mesh(std::move(scanned.mesh), cut), mesh);
     }
     const auto at = [&](std::string_view word) { return static_cast<std::size_t>(word.data() - file.data()); };
     std::string bytes = file;
@@ -74,7 +75,7 @@ void write_colors(const Colors& colors, std::ostream& stream) {
 }
 
 void write_new(const Mesh& mesh, std::ostream& stream) {
-    const PolygonList polygons = polygons_to_write(mesh);
+    const WrittenPolygons polygons = written_polygons(mesh);
     const Space space = space_of(mesh);
     stream << fmt::format("# vtk DataFile Version 4.2\nwritten by meshtween {}{}{}\nBINARY\nDATASET POLYDATA\n",
                           version(),

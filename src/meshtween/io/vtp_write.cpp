@@ -107,12 +107,13 @@ pugi::xml_node normals_of(pugi::xml_node piece) {
 }
 
 std::string rewritten(const Mesh& mesh) {
+    if (shape_key(mesh) == mesh.file->shape) return mesh.file->bytes;
     VtpFile file;
     open_vtp(file, mesh.file->bytes, mesh.file->path);
     Points normals;
     if (mesh.file->normals.rows() == mesh.positions.rows()) {
         const Triangles cut = mesh.file->cut;
-        normals = renewed_normals(cut_mesh(read_vtp(mesh.file->bytes, mesh.file->path), cut), mesh.positions);
+        normals = renewed_normals(cut_mesh(read_vtp(mesh.file->bytes, mesh.file->path), cut), mesh);
     }
     VtpEdit edit(file);
     Eigen::Index begin = 0;
@@ -158,7 +159,7 @@ void write_point_data(const Mesh& mesh, std::ostream& stream) {
 }
 
 void write_new(const Mesh& mesh, std::ostream& stream) {
-    const PolygonList polygons = polygons_to_write(mesh);
+    const WrittenPolygons polygons = written_polygons(mesh);
     const auto column = [](const std::vector<int>& numbers) {
         return Eigen::Map<const Eigen::VectorXi>(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
     };
