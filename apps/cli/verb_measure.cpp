@@ -14,6 +14,7 @@ namespace {
 struct Arguments {
     std::string source, fitted, target, truth;
     std::vector<std::string> markers;
+    bool weld = true;
 };
 } // namespace
 
@@ -27,6 +28,7 @@ void add_measure(CLI::App& app, const Common& common) {
     verb->add_option("TARGET", a->target, "The mesh that it was fitted to")->required();
     verb->add_option("--truth", a->truth, "CSV of x,y,z: where each vertex should be, in order");
     verb->add_option("--markers", a->markers, "Marker pairs to score")->expected(1, 2);
+    add_weld_flag(*verb, {&a->weld});
     verb->callback([a, &common] {
         Console console(common.quiet);
         const Mesh source = load_mesh(a->source, console), fitted = load_mesh(a->fitted, console),
@@ -34,8 +36,8 @@ void add_measure(CLI::App& app, const Common& common) {
         const Points truth = a->truth.empty() ? Points() : read_points(a->truth);
         MarkerPairs markers;
         if (!a->markers.empty()) markers = load_markers(a->markers, source, target, console);
-        fmt::print(
-            "{}\n",
-            to_json(measure(source, fitted, target, truth, place_markers(markers.pairs, source), common.seed)).dump(2));
+        fmt::print("{}\n", to_json(measure(source, Comparison(fitted, target, a->weld), truth,
+                                           place_markers(markers.pairs, source), common.seed))
+                               .dump(2));
     });
 }

@@ -1,6 +1,7 @@
 #include "frame.h"
 
 #include "meshtween/geometry/measure.h"
+#include "meshtween/geometry/weld.h"
 
 #include <bit>
 #include <cmath>
@@ -51,7 +52,7 @@ std::string position_bytes(const Points& positions, const Frame& frame) {
 }
 
 std::string normal_bytes(const Points& positions, const Triangles& triangles) {
-    const Points normals = vertex_normals(positions, triangles);
+    const Points normals = vertex_normals(positions, triangles, weld({positions, triangles, {}, {}, {}}));
     return bytes<std::int16_t>(4 * normals.rows(), [&](Eigen::Index i) {
         return i % 4 == 3 ? std::int16_t(0) : std::int16_t(std::lround(32767 * normals(i / 4, i % 4)));
     });
