@@ -5,6 +5,7 @@
 #include "meshtween/io/output.h"
 #include "meshtween/morph/keys.h"
 #include "support/twist.h"
+#include "textured_files.h"
 
 #include <fmt/format.h>
 
@@ -67,6 +68,7 @@ int main(int count, char** arguments) {
     const std::filesystem::path folder = arguments[1];
     std::filesystem::create_directories(folder);
     write_bars(arguments[2]);
+    write_textured(folder);
     const Mesh mesh = straight_bar();
     const Curve curve = twist_curve(mesh);
     const PlayOptions options{.seconds = 2, .ping_pong = true, .title = "A bar, twisted <by 180\u00b0>"};
