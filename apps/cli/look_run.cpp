@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 using namespace meshtween;
@@ -12,6 +13,14 @@ namespace {
 
 // How finely pictures and vertices show the same: where colours are so much denser, vertices lose some.
 constexpr Eigen::Index much_denser = 2;
+
+// x for x.obj; where x.png is an output itself, x_texture.
+std::string picture_name(const std::vector<std::string>& outputs) {
+    const std::filesystem::path first = outputs.front();
+    const auto taken = std::filesystem::path(first).replace_extension(".png");
+    const std::string stem = first.stem().string();
+    return std::ranges::find(outputs, taken.string()) == outputs.end() ? stem : stem + "_texture";
+}
 
 } // namespace
 
@@ -52,7 +61,7 @@ Mesh run_look(const Mesh& receiver, const Mesh& giver, const LookNames& names, c
     LookOptions options;
     options.bake_colors = flags.texture_size > 0;
     if (flags.texture_size > 0) options.texture_size = flags.texture_size;
-    options.picture_name = std::filesystem::path(names.output).stem().string();
+    options.picture_name = picture_name(names.outputs);
     CarriedLook look = carried_look(receiver, giver, names.giver, options, progress);
     stop_if_interrupted();
     if (look.cancelled) throw Interrupted{};

@@ -16,8 +16,9 @@ void add_appearance_flag(CLI::App& verb, LookFlags& flags, const std::vector<std
 // Throws Error(file) where the mesh has no look to carry, sooner than after a long fit.
 void require_look(const meshtween::Mesh& mesh, const std::string& file);
 
-struct LookNames { // the files', for messages, and what a picture is called after
-    std::string receiver, giver, output;
+struct LookNames { // the files', for messages, and the outputs, after the first of which a picture is called
+    std::string receiver, giver;
+    const std::vector<std::string>& outputs;
 };
 
 bool has_look(const meshtween::Mesh& mesh);

@@ -51,7 +51,7 @@ void add_fit(CLI::App& app, const Common& common) {
         const Progress progress = console.progress();
         const Fitted fitted = run_fit(source, target, markers, a->fit, common.seed, part_of(progress, 0, 0.8), console);
         report["fit"] = fitted.report;
-        const Mesh result = dressed ? run_look(fitted.mesh, target, {a->source, a->target, a->outputs.front()}, a->look,
+        const Mesh result = dressed ? run_look(fitted.mesh, target, {a->source, a->target, a->outputs}, a->look,
                                                part_of(progress, 0.8, 0.95), console, report["look"])
                                     : fitted.mesh;
         const Written written =

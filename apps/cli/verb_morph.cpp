@@ -67,10 +67,9 @@ void morph_two(const Arguments& a, std::uint32_t seed, Console& console, Json& r
                   true};
     if (shows_target(a.look)) {
         const Progress part = part_of(progress, 0.55, 0.6);
-        show_target(work,
-                    run_look(fitted.mesh, target, {a.source, a.target, a.outputs.front()}, a.look, part, console,
-                             report["look"]),
-                    a.look);
+        show_target(
+            work, run_look(fitted.mesh, target, {a.source, a.target, a.outputs}, a.look, part, console, report["look"]),
+            a.look);
         work.ends_before = false; // they would not show it
     }
     write_path(work, a.path, part_of(progress, 0.6, 1), console, report);
@@ -97,8 +96,7 @@ void morph_through_template(const Arguments& a, std::uint32_t seed, Console& con
                                   {"target", second, side(to_second, false)}};
     PathWork work{from.mesh, {from.mesh.positions, to.mesh.positions}, outputs,
                   tiles,     title_of({a.source, a.target}),           !a.report.empty()};
-    const LookNames names{a.template_mesh, a.source, a.outputs.front()},
-        other_names{a.template_mesh, a.target, a.outputs.front()};
+    const LookNames names{a.template_mesh, a.source, a.outputs}, other_names{a.template_mesh, a.target, a.outputs};
     if (shows_source(a.look))
         work.mesh =
             run_look(from.mesh, first, names, a.look, part_of(progress, 0.7, 0.75), console, report["look_source"]);

@@ -119,7 +119,7 @@ void transfer_mesh(const Arguments& a, const std::vector<Output>& outputs, const
     Mesh result = receiver;
     Json described; // of no report
     if (looks)
-        result = run_look(receiver, giver, {sides.receiver_file, sides.giver_file, a.outputs.front()}, a.look, progress,
+        result = run_look(receiver, giver, {sides.receiver_file, sides.giver_file, a.outputs}, a.look, progress,
                           console, described);
     if (result.file == receiver.file || result.file->images.empty()) {
         Mesh carried = with_attributes(receiver, giver, places);
