@@ -50,6 +50,8 @@ try {
     await step(page, 'Models')
     await page.waitForFunction(() => [...document.querySelectorAll('.project img')].every((img) => img.naturalWidth > 0))
     await shot('models')
+    await page.evaluate(() => document.querySelector('.panel').scrollTo(0, 420))
+    await shot('projects')
     await step(page, 'Markers')
     if ((await page.locator('tr[data-marker]').count()) === 0) {
       const [chooser] = await Promise.all([page.waitForEvent('filechooser'), page.getByRole('button', { name: 'Import…' }).click()])
