@@ -81,7 +81,7 @@ Json Session::state() const {
         {"job", jobs_.status()},
         {"schema", {{"fit", fit_schema()}, {"morph", morph_schema()}}},
         {"samples", offered},
-        {"mesh_formats", mesh_extensions()},
+        {"mesh_formats", readable_extensions()},
         {"notes", work_->notes}};
     if (open.source && open.target)
         state["result_frame"] = to_json(frame_of(open.source->mesh.positions, open.target->mesh.positions));

@@ -88,7 +88,7 @@ RegionTiming read_regions(const std::filesystem::path& path, const Mesh& mesh, c
     std::string extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    const auto& meshes = mesh_extensions();
+    const auto meshes = readable_extensions();
     const bool paint = std::find(meshes.begin(), meshes.end(), extension) != meshes.end();
     return region_timing(mesh, paint ? painted(path, mesh, options.span) : listed(path, mesh), options.width);
 }

@@ -149,6 +149,13 @@ std::vector<std::string> left_behind(const Mesh& mesh, const fs::path& path, boo
     return notes;
 }
 
+std::vector<std::string> readable_extensions() {
+    std::vector<std::string> names;
+    for (const Format& format : formats)
+        if (format.read != nullptr) names.emplace_back(format.extension);
+    return names;
+}
+
 const std::vector<std::string>& mesh_extensions() {
     static const std::vector<std::string> extensions = [] {
         std::vector<std::string> names;

@@ -48,5 +48,6 @@ void check_writable(const std::filesystem::path& path);
 
 // The extensions that read_mesh and write_mesh know, with the dot, in lower case.
 const std::vector<std::string>& mesh_extensions();
+std::vector<std::string> readable_extensions(); // those of them that read_mesh knows
 
 } // namespace meshtween
