@@ -165,7 +165,7 @@ Fitted run_fit(const Mesh& source, const Mesh& target, const MarkerPairs& marker
     fitted.mesh.positions = result.positions;
     fitted.report["seconds"] = seconds;
     keep_going(progress, 0.8, "measuring");
-    const Comparison both(fitted.mesh, target);
+    const Comparison both(fitted.mesh, target, options.weld);
     const Quality quality = measure(fitted.source, both, {}, placed, seed);
     keep_going(progress, 0.9, "finding places");
     fitted.map = correspondence(both);
@@ -176,11 +176,17 @@ Fitted run_fit(const Mesh& source, const Mesh& target, const MarkerPairs& marker
         console.note(fmt::format("symmetry: both shapes are their own mirror images, {} marker{} drew on the other "
                                  "side as well (--no-symmetry leaves that out)",
                                  result.twins, result.twins == 1 ? "" : "s"));
+    const auto copies = [](const Weld& seams) { return std::ssize(seams.vertex) - std::ssize(seams.first); };
+    if (quality.copies > 0 || both.target_seams.any())
+        console.note(
+            fmt::format("seams: {} vertices of the source and {} of the target repeat others where their files "
+                        "are cut; each counts once (--no-weld leaves the cuts open)",
+                        quality.copies, copies(both.target_seams)));
     const auto beyond = std::ranges::count(fitted.map.border, 1);
-    if (100 * beyond > quality.vertices)
+    if (100 * beyond > fitted.mesh.positions.rows())
         console.note(fmt::format("beyond: the target ends before {} of {} vertices: nothing on it answers to them, and "
                                  "they follow the rest (--weights says which)",
-                                 beyond, quality.vertices));
+                                 beyond, fitted.mesh.positions.rows()));
     const std::ptrdiff_t flips = std::ssize(without_beyond(fitted.mesh.triangles, fitted.map.border, quality.flipped));
     console.note(fmt::format("fit: {:.4f} % to the target, {:.4f} % back, {} flipped of {} faces, {} cuts, {:.2f} s",
                              quality.fitted_to_target.mean, quality.target_to_fitted.mean, flips, quality.triangles,

@@ -8,6 +8,7 @@
 #include "meshtween/io/mesh_file.h"
 #include "meshtween/io/mesh_io.h"
 #include "meshtween/io/output.h"
+#include "meshtween/io/seams.h"
 
 #include <fmt/format.h>
 
@@ -25,7 +26,7 @@ namespace {
 
 std::vector<Finding> require_usable(const Mesh& mesh, const std::string& path, Console& console) {
     if (mesh.file) console.warn(path + ": ", mesh.file->notes);
-    std::vector<Finding> findings = check(mesh);
+    std::vector<Finding> findings = check(mesh, seams(mesh));
     for (const Finding& finding : findings) {
         if (finding.severity == Severity::error)
             throw Error(ErrorKind::file, fmt::format("{}: {}", path, finding.what));
@@ -135,6 +136,15 @@ void tell_written(const Written& written, Console& console) {
 void tell_written(const Written& written, Console& console, Json& report) {
     for (const auto& file : written.files) report["outputs"].push_back(file.string());
     tell_written(written, console);
+}
+
+void add_weld_flag(CLI::App& verb, const std::vector<bool*>& weld) {
+    verb.add_flag_callback(
+        "--no-weld",
+        [weld] {
+            for (bool* one : weld) *one = false;
+        },
+        "Leave meshes cut where their files split vertices because texture coordinates or normals jump");
 }
 
 std::string title_of(const std::vector<std::string>& meshes) {

@@ -39,6 +39,9 @@ void add_write_flags(CLI::App& verb, meshtween::WriteOptions& options);
 // Says what was written and what the files could not hold.
 void tell_written(const meshtween::Written& written, Console& console);
 void tell_written(const meshtween::Written& written, Console& console, meshtween::Json& report);
+// --no-weld: vertices that seams of a file split are not one vertex (weld.h).
+void add_weld_flag(CLI::App& verb, const std::vector<bool*>& weld);
+
 std::string title_of(const std::vector<std::string>& meshes); // the files' names without folders: "a to b"
 
 // The report's first lines; and its last, with the file written where one is named.

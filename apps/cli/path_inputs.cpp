@@ -164,8 +164,8 @@ void write_whole_path(const PathWork& work, const PathFlags& flags, const KeyOpt
     const bool plotted = std::any_of(work.outputs.begin(), work.outputs.end(),
                                      [](const Output& out) { return out.kind == OutputKind::plot; });
     if (work.measured || plotted)
-        playable.quality =
-            path_quality(work.mesh.triangles, at, {.keys = playable.path.keys}, part_of(progress, 0.6, 0.8));
+        playable.quality = path_quality(work.mesh, at, {.keys = playable.path.keys, .weld = keys.morph.weld},
+                                        part_of(progress, 0.6, 0.8));
     stop_if_interrupted();
     if (work.measured) row["shapes"] = to_json(playable.quality, work.mesh.triangles, at);
     playable.mesh = work.mesh;

@@ -53,6 +53,7 @@ void add_blend(CLI::App& app, const Common& common) {
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     verb->add_option("--report", a->report, "Write what was found out as JSON");
     add_method_flags(*verb, a->path);
+    add_weld_flag(*verb, {&a->path.options.weld});
     verb->callback([a, &common] {
         const auto start = std::chrono::steady_clock::now();
         Console console(common.quiet);

@@ -3,6 +3,7 @@
 #include "meshtween/core/error.h"
 #include "meshtween/geometry/check.h"
 #include "meshtween/io/mesh_io.h"
+#include "meshtween/io/seams.h"
 
 #include <fmt/format.h>
 
@@ -18,7 +19,7 @@ bool check_file(const std::string& path) {
         const Mesh mesh = read_mesh(path);
         fmt::print("{}: {} vertices, {} triangles\n", path, mesh.positions.rows(), mesh.triangles.rows());
         bool usable = true;
-        for (const Finding& finding : check(mesh)) {
+        for (const Finding& finding : check(mesh, seams(mesh))) {
             fmt::print("{}: {}: {}\n", path, name_of(finding.severity), finding.what);
             usable = usable && finding.severity != Severity::error;
         }

@@ -32,6 +32,7 @@ void add_fit(CLI::App& app, const Common& common) {
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     verb->add_option("--report", a->report, "Write what was found out as JSON");
     add_fit_flags(*verb, a->fit);
+    add_weld_flag(*verb, {&a->fit.options.weld});
     add_fit_files(*verb, a->fit);
     add_write_flags(*verb, a->writing);
     add_appearance_flag(*verb, a->look, {"source", "target"});

@@ -14,6 +14,7 @@ namespace {
 struct Arguments {
     std::string source, fitted, target, truth, markers_system;
     std::vector<std::string> markers;
+    bool weld = true;
 };
 } // namespace
 
@@ -28,6 +29,7 @@ void add_measure(CLI::App& app, const Common& common) {
     verb->add_option("--truth", a->truth, "CSV of x,y,z: where each vertex should be, in order");
     verb->add_option("--markers", a->markers, "Marker pairs to score")->expected(1, 2);
     add_markers_system(*verb, a->markers_system);
+    add_weld_flag(*verb, {&a->weld});
     verb->callback([a, &common] {
         Console console(common.quiet);
         const std::vector<Mesh> both = load_alike({a->source, a->fitted}, console);
@@ -35,8 +37,8 @@ void add_measure(CLI::App& app, const Common& common) {
         const Points truth = a->truth.empty() ? Points() : read_points(a->truth);
         MarkerPairs markers;
         if (!a->markers.empty()) markers = load_markers(a->markers, source, target, console, a->markers_system);
-        fmt::print(
-            "{}\n",
-            to_json(measure(source, fitted, target, truth, place_markers(markers.pairs, source), common.seed)).dump(2));
+        fmt::print("{}\n", to_json(measure(source, Comparison(fitted, target, a->weld), truth,
+                                           place_markers(markers.pairs, source), common.seed))
+                               .dump(2));
     });
 }

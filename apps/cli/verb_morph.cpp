@@ -141,6 +141,7 @@ void add_morph(CLI::App& app, const Common& common) {
         with_template->excludes(verb->get_option(of_one_fit));
     add_path_flags(*verb, a->path);
     add_appearance_flag(*verb, a->look, {"source", "target", "both"});
+    add_weld_flag(*verb, {&a->fit.options.weld, &a->path.options.weld});
     verb->callback([a, &common] {
         const auto start = std::chrono::steady_clock::now();
         Console console(common.quiet);

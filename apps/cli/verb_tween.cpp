@@ -37,6 +37,7 @@ void add_tween(CLI::App& app, const Common& common) {
         ->delimiter(',')
         ->expected(1, 10001);
     add_path_flags(*verb, a->path);
+    add_weld_flag(*verb, {&a->path.options.weld});
     verb->callback([a, &common] {
         const auto start = std::chrono::steady_clock::now();
         Console console(common.quiet);

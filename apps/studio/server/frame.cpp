@@ -1,6 +1,7 @@
 #include "frame.h"
 
 #include "meshtween/geometry/measure.h"
+#include "meshtween/geometry/weld.h"
 
 #include <bit>
 #include <cmath>
@@ -51,7 +52,7 @@ std::string position_bytes(const Points& positions, const Frame& frame) {
 }
 
 std::string normal_bytes(const Points& positions, const Triangles& triangles) {
-    return direction_bytes(vertex_normals(positions, triangles));
+    return direction_bytes(vertex_normals(positions, triangles, weld({positions, triangles, {}, {}, {}})));
 }
 
 std::string direction_bytes(const Points& directions) {

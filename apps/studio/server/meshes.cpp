@@ -9,6 +9,7 @@
 #include "meshtween/geometry/measure.h"
 #include "meshtween/io/mesh_file.h"
 #include "meshtween/io/mesh_io.h"
+#include "meshtween/io/seams.h"
 
 #include <fmt/format.h>
 
@@ -71,7 +72,7 @@ Json marker_errors(const OpenMesh& source, const OpenMesh& target, const Mesh& f
 
 std::shared_ptr<const OpenMesh> open_mesh(const std::filesystem::path& path) {
     Mesh mesh = read_mesh(path);
-    std::vector<Finding> findings = check(mesh);
+    std::vector<Finding> findings = check(mesh, seams(mesh));
     for (const Finding& finding : findings)
         if (finding.severity == Severity::error)
             throw Error(ErrorKind::file, fmt::format("{}: {}", path.filename().string(), finding.what));

@@ -6,6 +6,7 @@
 #include "meshtween/core/parallel.h"
 #include "meshtween/geometry/measure.h"
 #include "meshtween/geometry/topology.h"
+#include "meshtween/geometry/weld.h"
 
 #include <Eigen/Geometry>
 
@@ -166,7 +167,9 @@ Eigen::Vector3f shade(const SurfaceSpot& place, const Lit& lit, const Eigen::Vec
     return albedo.cwiseProduct(lit.dome + lit.softbox) + Eigen::Vector3f(added, added, added * 1.04F);
 }
 
-CornerNormals corner_normals(const Points& positions, const Triangles& triangles, double sharp_degrees) {
+CornerNormals corner_normals(const Points& positions, const Triangles& given, double sharp_degrees) {
+    const Weld found = weld({positions, given, {}, {}, {}}); // smooth across the seams of a file
+    const Triangles triangles = found.any() ? found.by_first() : given;
     CornerNormals result(triangles.rows(), 9);
     const Points faces = triangle_normals(positions, triangles);
     const Lists around = topology(positions.rows(), triangles).vertex_triangles;

@@ -95,6 +95,7 @@ Json to_json(const Quality& q) {
               {"self_intersections_source", q.cuts_source},
               {"self_intersections_target", q.cuts_target},
               {"symmetric_dirichlet", to_json(q.symmetric_dirichlet)}};
+    if (q.copies > 0) json["copies_of_vertices"] = q.copies;
     if (q.truth_error) json["truth_error"] = to_json(*q.truth_error);
     if (q.marker_error) json["marker_error"] = to_json(*q.marker_error);
     return json;

@@ -5,6 +5,7 @@
 #include "meshtween/geometry/measure.h"
 #include "meshtween/geometry/topology.h"
 #include "meshtween/io/output.h"
+#include "meshtween/io/seams.h"
 #include "meshtween/io/text_out.h"
 #include "meshtween/search/closest_point.h"
 
@@ -23,10 +24,10 @@ constexpr double near_enough = 0.005; // of the diagonal: distances well under t
 constexpr double slack = 0.001;       // of the diagonal: a vertex no further off lies on the target
 
 // From the closest of all for each vertex of the mesh.
-std::vector<ClosestPoint> closest_alike(const Mesh& mesh, const ClosestPointIndex& surface, double diagonal,
-                                        std::vector<ClosestPoint> closest) {
+std::vector<ClosestPoint> closest_alike(const Mesh& mesh, const Weld& seams, const ClosestPointIndex& surface,
+                                        double diagonal, std::vector<ClosestPoint> closest) {
     constexpr double further = 1.5; // of the distance to the closest point
-    const Points normals = vertex_normals(mesh.positions, mesh.triangles);
+    const Points normals = vertex_normals(mesh.positions, mesh.triangles, seams);
     parallel_for(
         mesh.positions.rows(),
         [&](std::ptrdiff_t i) {
@@ -41,6 +42,11 @@ std::vector<ClosestPoint> closest_alike(const Mesh& mesh, const ClosestPointInde
     return closest;
 }
 
+// Each corner the first of the vertices that are one.
+Triangles by_first(const Mesh& mesh, const Weld& seams) {
+    return seams.any() ? seams.by_first() : mesh.triangles;
+}
+
 Points vertices_and_centres(const Mesh& mesh) {
     Points all(mesh.positions.rows() + mesh.triangles.rows(), 3);
     all.topRows(mesh.positions.rows()) = mesh.positions;
@@ -51,7 +57,8 @@ Points vertices_and_centres(const Mesh& mesh) {
 }
 
 // What lies beyond the fitted mesh's own border is no part of it and does not count.
-void find_uncovered(const Comparison& both, const Topology& topology, Correspondence& map) {
+void find_uncovered(const Comparison& both, const Triangles& triangles, const std::vector<char>& on_boundary,
+                    Correspondence& map) {
     const Mesh& fitted = both.fitted;
     map.uncovered.assign(idx(fitted.positions.rows()), 0.0);
     map.uncovered_at = fitted.positions;
@@ -59,15 +66,18 @@ void find_uncovered(const Comparison& both, const Topology& topology, Correspond
     const std::vector<ClosestPoint> back = both.on_fitted.closest(places);
     for (std::size_t i = 0; i < back.size(); ++i) {
         const SurfacePoint& where = back[i].where;
-        if (at_border(where, fitted.triangles, topology.on_boundary)) continue;
+        if (at_border(where, triangles, on_boundary)) continue;
         int corner = 0;
         where.barycentric.maxCoeff(&corner);
-        const int v = fitted.triangles(where.triangle, corner);
+        const int v = triangles(where.triangle, corner);
         const double far = std::sqrt(back[i].squared_distance) / both.diagonal;
         if (far <= map.uncovered[idx(v)]) continue;
         map.uncovered[idx(v)] = far;
         map.uncovered_at.row(v) = places.row(static_cast<Eigen::Index>(i));
     }
+    const Weld& seams = both.fitted_seams;
+    seams.share(map.uncovered);
+    if (seams.any()) map.uncovered_at = seams.expanded(seams.reduced(map.uncovered_at));
 }
 
 double falling(double distance) {
@@ -79,7 +89,8 @@ double falling(double distance) {
 std::vector<SurfacePoint> places_on(const Mesh& mesh, const Mesh& surface) {
     const ClosestPointIndex index(surface);
     std::vector<SurfacePoint> places;
-    for (const ClosestPoint& c : closest_alike(mesh, index, diagonal(surface.positions), index.closest(mesh.positions)))
+    for (const ClosestPoint& c :
+         closest_alike(mesh, seams(mesh), index, diagonal(surface.positions), index.closest(mesh.positions)))
         places.push_back(c.where);
     return places;
 }
@@ -87,25 +98,31 @@ std::vector<SurfacePoint> places_on(const Mesh& mesh, const Mesh& surface) {
 Correspondence correspondence(const Comparison& both) {
     const Mesh &fitted = both.fitted, &target = both.target;
     const ClosestPointIndex& surface = both.on_target;
-    const Points normals = vertex_normals(fitted.positions, fitted.triangles);
-    const Topology own = topology(fitted.positions.rows(), fitted.triangles);
-    const Topology other = topology(target.positions.rows(), target.triangles);
+    const Points normals = vertex_normals(fitted.positions, fitted.triangles, both.fitted_seams);
+    const Triangles triangles = by_first(fitted, both.fitted_seams),
+                    target_triangles = by_first(target, both.target_seams);
+    const Topology own = topology(fitted.positions.rows(), triangles);
+    const Topology other = topology(target.positions.rows(), target_triangles);
     const bool open = std::ranges::find(other.on_boundary, 1) != other.on_boundary.end();
     Correspondence map;
-    find_uncovered(both, own, map);
-    const std::vector<ClosestPoint> closest = closest_alike(fitted, surface, both.diagonal, both.vertices);
+    find_uncovered(both, triangles, own.on_boundary, map);
+    const std::vector<ClosestPoint> closest =
+        closest_alike(fitted, both.fitted_seams, surface, both.diagonal, both.vertices);
     std::vector<double> counterpart;
     if (open)
         counterpart =
-            counterparts(fitted.positions, own.neighbours, closest, {target.triangles, other.on_boundary, surface},
+            counterparts(fitted.positions, own.neighbours, closest, {target_triangles, other.on_boundary, surface},
                          both.on_fitted, std::numeric_limits<double>::infinity());
+    std::vector<char> on_boundary = own.on_boundary;
+    both.fitted_seams.share(on_boundary);
+    if (open) both.fitted_seams.share(counterpart);
     for (std::size_t i = 0; i < closest.size(); ++i) {
         const SurfacePoint& place = closest[i].where;
         map.places.push_back(place);
         map.distance.push_back(std::sqrt(closest[i].squared_distance) / both.diagonal);
         map.agreement.push_back(normals.row(static_cast<Eigen::Index>(i)).dot(surface.normals().row(place.triangle)));
-        const bool ends = at_border(place, target.triangles, other.on_boundary);
-        map.border.push_back((ends && own.on_boundary[i] == 0) ||
+        const bool ends = at_border(place, target_triangles, other.on_boundary);
+        map.border.push_back((ends && on_boundary[i] == 0) ||
                              (open && map.distance.back() > slack && counterpart[i] < 0.5));
         map.trust.push_back(map.border[i] != 0 ? 0
                                                : std::max(0.0, map.agreement[i]) * falling(map.distance[i]) *

@@ -5,6 +5,7 @@
 #include "meshtween/fit/paper_fit.h"
 #include "meshtween/fit/surface_fit.h"
 #include "meshtween/geometry/measure.h"
+#include "meshtween/io/seams.h"
 
 #include <fmt/format.h>
 
@@ -72,6 +73,13 @@ FitResult fit_by_method(const Mesh& source, const Mesh& target, std::span<const 
     throw Error(ErrorKind::argument, "no such way to fit");
 }
 
+// The file's numbering back, where seams were welded.
+void expand(FitResult& result, const Weld& seams) {
+    if (!seams.any()) return;
+    result.positions = seams.expanded(result.positions);
+    result.refused = seams.files_vertices(result.refused);
+}
+
 } // namespace
 
 FitResult fit(const Mesh& source, const Mesh& target, std::span<const Marker> markers, const FitOptions& options,
@@ -80,8 +88,13 @@ FitResult fit(const Mesh& source, const Mesh& target, std::span<const Marker> ma
     check_mesh(source, "source");
     check_mesh(target, "target");
     check_markers(source, markers);
-    FitResult result = fit_by_method(source, target, markers, options, progress);
-    if (result.end != FitEnd::cancelled && options.markers_exact) meet_markers(result, source, target, markers);
+    const WholeMesh from(source, options.weld), to(target, options.weld);
+    FitOptions inner = options;
+    if (options.watch && from.seams.any())
+        inner.watch = [&](const Points& x) { options.watch(from.seams.expanded(x)); };
+    FitResult result = fit_by_method(from.mesh(), to.mesh(), markers, inner, progress);
+    if (result.end != FitEnd::cancelled && options.markers_exact) meet_markers(result, from.mesh(), to.mesh(), markers);
+    expand(result, from.seams);
     return result;
 }
 

@@ -28,19 +28,20 @@ struct FitOptions {
     bool on_surface = false;   // surface: each vertex stays on the target; else they are lifted by so much that the
                                // triangles between them lie on it in the mean (lift.h)
     bool symmetry = true; // surface: where both shapes are their own mirror images, markers have twins (marker_twins.h)
-    bool markers_exact = false;               // each marker's point ends on its place, to 1e-9 (meet_markers.h)
-    std::function<void(const Points&)> watch; // called each round, from fit's thread, with the whole mesh so far
+    bool markers_exact = false; // each marker's point ends on its place, to 1e-9 (meet_markers.h)
+    bool weld = true; // vertices of one place that a seam of the file split are one vertex (weld.h), in both meshes
+    std::function<void(const Points&)> watch; // called each round, from fit's thread, with the whole mesh so far: n x 3
 };
 
 enum class FitEnd { converged, out_of_rounds, cancelled };
 
 struct FitResult {
-    Points positions; // n x 3: the source's vertices on the target
+    Points positions; // n x 3: the source's vertices on the target; those that are one vertex in one place, bit for bit
     FitEnd end = FitEnd::out_of_rounds;
     int rounds = 0;
     double error = 0;            // E of Eq. 7 at the end, in squared parts of the diagonal, summed over vertices
     std::vector<double> history; // sqrt(E / n) of each round, parts of the diagonal, before its projection
-    long refused_steps = 0;      // vertex moves shortened because they would have turned a triangle over
+    long refused_steps = 0;      // vertex moves shortened because they would have turned a triangle over; a seam's once
     std::vector<int> refused;    // surface: the vertices of those moves, ascending
     std::vector<int> mended; // surface: triangles that looked into the target on the way and no longer do, ascending
     int twins = 0;           // surface: mirror images of markers that drew as well

@@ -115,8 +115,17 @@ std::vector<double> symmetric_dirichlet(const Mesh& source, const Mesh& fitted) 
     return result;
 }
 
-std::vector<std::array<int, 2>> cuts(const Mesh& mesh) {
-    return self_intersections(mesh.positions, mesh.triangles);
+std::vector<std::array<int, 2>> cuts(const Mesh& mesh, const Weld& seams) {
+    return self_intersections(mesh.positions, seams.any() ? seams.by_first() : mesh.triangles);
+}
+
+// Of one row a vertex, those of the first of the vertices that are one.
+template <typename Rows>
+Rows counted_once(const Rows& rows, const Weld& seams) {
+    if (!seams.any()) return rows;
+    Rows result;
+    for (const int i : seams.first) result.push_back(rows[static_cast<std::size_t>(i)]);
+    return result;
 }
 
 void require_same_mesh(const Mesh& source, const Mesh& fitted, const Points& truth) {
@@ -160,12 +169,16 @@ Quality measure(const Mesh& source, const Comparison& both, const Points& truth,
     require_same_mesh(source, fitted, truth);
     const double percent = 100 / both.diagonal;
 
+    const Weld own = both.weld ? seams(source, {&source.positions, &fitted.positions}) : Weld();
+    const std::vector<ClosestPoint> vertices = counted_once(both.vertices, own);
     Quality q;
-    q.vertices = fitted.positions.rows();
+    q.vertices = std::ssize(vertices);
+    q.copies = fitted.positions.rows() - q.vertices;
     q.triangles = fitted.triangles.rows();
-    for (const ClosestPoint& c : both.vertices) q.eq7 += c.squared_distance / (both.diagonal * both.diagonal);
-    const std::vector<std::function<void()>> parts{ // each on its own, for most of them have serial stretches
-        [&] { q.vertex_to_target = statistics(distances(both.vertices, both.diagonal)); },
+    for (const ClosestPoint& c : vertices) q.eq7 += c.squared_distance / (both.diagonal * both.diagonal);
+    const std::vector<std::function<void()>> parts{
+        // each on its own, for most of them have serial stretches
+        [&] { q.vertex_to_target = statistics(distances(vertices, both.diagonal)); },
         [&] {
             const Samples on_fitted = surface_samples(fitted, seed);
             q.fitted_to_target = statistics(
@@ -176,9 +189,9 @@ Quality measure(const Mesh& source, const Comparison& both, const Points& truth,
             q.target_to_fitted = statistics(distances(both.on_fitted.closest(on_target.points), both.diagonal));
         },
         [&] { count_flips(both, q); },
-        [&] { q.cuts = cuts(fitted); },
-        [&] { q.cuts_source = std::ssize(cuts(source)); },
-        [&] { q.cuts_target = std::ssize(cuts(target)); },
+        [&] { q.cuts = cuts(fitted, own); },
+        [&] { q.cuts_source = std::ssize(cuts(source, both.weld ? seams(source) : Weld())); },
+        [&] { q.cuts_target = std::ssize(cuts(target, both.target_seams)); },
         [&] { q.symmetric_dirichlet = statistics(symmetric_dirichlet(source, fitted)); }};
     parallel_for(
         std::ssize(parts), [&](std::ptrdiff_t k) { parts[static_cast<std::size_t>(k)](); }, 1);
@@ -186,7 +199,7 @@ Quality measure(const Mesh& source, const Comparison& both, const Points& truth,
         std::vector<double> errors;
         for (Eigen::Index i = 0; i < truth.rows(); ++i)
             errors.push_back((truth.row(i) - fitted.positions.row(i)).norm() * percent);
-        q.truth_error = statistics(errors);
+        q.truth_error = statistics(counted_once(errors, own));
     }
     if (!markers.empty()) {
         std::vector<double> errors;

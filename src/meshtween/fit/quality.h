@@ -21,12 +21,13 @@ Statistics statistics(std::vector<double> values);
 
 // Lengths are percent of the target's bounding-box diagonal.
 struct Quality {
-    long vertices = 0, triangles = 0;
-    double eq7 = 0;              // E of Eq. 7 in squared parts of the diagonal
-    Statistics vertex_to_target; // every vertex of the fitted mesh
-    Statistics fitted_to_target; // 100,000 points spread evenly over the fitted surface
-    Statistics target_to_fitted; // and over the target's
-    std::vector<int> flipped;    // faces whose normal opposes the target's at the point closest to their centre
+    long vertices = 0, triangles = 0; // what a seam of the file split counts as one vertex
+    long copies = 0;                  // of vertices, which seams made: not counted
+    double eq7 = 0;                   // E of Eq. 7 in squared parts of the diagonal
+    Statistics vertex_to_target;      // every vertex of the fitted mesh
+    Statistics fitted_to_target;      // 100,000 points spread evenly over the fitted surface
+    Statistics target_to_fitted;      // and over the target's
+    std::vector<int> flipped;         // faces whose normal opposes the target's at the point closest to their centre
     double flipped_area_percent = 0;
     long degenerate = 0;                   // faces with less than 1e-14 of the diagonal squared as double area
     std::vector<std::array<int, 2>> cuts;  // pairs of faces that cut each other

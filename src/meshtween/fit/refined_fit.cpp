@@ -7,12 +7,14 @@
 #include "meshtween/fit/refine.h"
 #include "meshtween/geometry/measure.h"
 #include "meshtween/geometry/subdivide.h"
+#include "meshtween/io/seams.h"
 #include "meshtween/search/closest_point.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace meshtween {
 namespace {
@@ -91,6 +93,41 @@ std::vector<Marker> moved_to(const Mesh& finer, const Mesh& source, std::span<co
     return moved;
 }
 
+// A mesh as its file numbers it and as one surface, with the same triangles and corners.
+struct Layers {
+    Mesh whole;
+    Mesh cut;                // the file's; empty where nothing was welded
+    std::vector<int> vertex; // the welded vertex of each of the file's; empty likewise
+
+    Mesh& file() { return vertex.empty() ? whole : cut; }
+    const Mesh& file() const { return vertex.empty() ? whole : cut; }
+    Points expanded(const Points& x) const { return vertex.empty() ? x : x(vertex, Eigen::all); }
+    std::vector<int> expanded(const std::vector<int>& vertices) const {
+        if (vertex.empty()) return vertices;
+        std::vector<int> result;
+        for (std::size_t i = 0; i < vertex.size(); ++i)
+            if (std::binary_search(vertices.begin(), vertices.end(), vertex[i])) result.push_back(static_cast<int>(i));
+        return result;
+    }
+};
+
+Layers layered(const Mesh& source, bool weld) {
+    Weld found = weld ? seams(source) : Weld();
+    if (!found.any()) return {source, {}, {}};
+    return {welded(source, found), source, std::move(found.vertex)};
+}
+
+Layers finer(const Layers& layers, const Topology& edges, const std::vector<char>& coarse) {
+    Layers result{subdivide(layers.whole, edges, coarse), {}, {}};
+    if (layers.vertex.empty()) return result;
+    result.cut = subdivide(layers.cut, layers.whole, edges, coarse);
+    result.vertex = layers.vertex;
+    result.vertex.resize(idx(result.cut.positions.rows()), 0);
+    for (Eigen::Index t = 0; t < result.cut.triangles.rows(); ++t)
+        for (int k = 0; k < 3; ++k) result.vertex[idx(result.cut.triangles(t, k))] = result.whole.triangles(t, k);
+    return result;
+}
+
 } // namespace
 
 std::vector<char> too_coarse(const Mesh& fitted, const Topology& topology, const Mesh& target, double tolerance) {
@@ -111,16 +148,18 @@ RefinedFit refined_fit(const Mesh& source, const Mesh& target, std::span<const M
                                 "or more",
                                 refine.tolerance, refine.rounds));
     FitOptions bare = options; // what is too coarse shows where vertices lie on the target
-    bare.on_surface = true, bare.markers_exact = false;
+    bare.on_surface = true, bare.markers_exact = false, bare.weld = false;
+    const WholeMesh to(target, options.weld);
+    Layers layers = layered(source, options.weld);
+    if (options.watch) bare.watch = [&](const Points& x) { options.watch(layers.expanded(x)); };
     RefinedFit result;
-    result.source = source;
     const auto share = [&](int round) { return std::pow(2.0, round - refine.rounds); }; // later ones take longer
-    result.fit = fit(source, target, markers, bare, part_of(progress, 0, share(0)));
+    result.fit = fit(layers.whole, to.mesh(), markers, bare, part_of(progress, 0, share(0)));
     for (int round = 0; result.fit.end != FitEnd::cancelled; ++round) {
-        Mesh fitted = result.source;
+        Mesh fitted = layers.whole;
         fitted.positions = result.fit.positions;
         const Topology edges = topology(fitted.positions.rows(), fitted.triangles);
-        const std::vector<char> coarse = too_coarse(fitted, edges, target, refine.tolerance);
+        const std::vector<char> coarse = too_coarse(fitted, edges, to.mesh(), refine.tolerance);
         result.left = std::count(coarse.begin(), coarse.end(), 1);
         if (result.left == 0 || round == refine.rounds) break;
         if (fitted.positions.rows() + result.left > refine.most_vertices) {
@@ -128,21 +167,24 @@ RefinedFit refined_fit(const Mesh& source, const Mesh& target, std::span<const M
                                                    fitted.positions.rows(), refine.most_vertices));
             break;
         }
-        Mesh finer = subdivide(result.source, edges, coarse);
-        FitResult next = fit(finer, target, moved_to(finer, source, markers), bare,
+        const Layers before = std::exchange(layers, finer(layers, edges, coarse));
+        FitResult next = fit(layers.whole, to.mesh(), moved_to(layers.whole, source, markers), bare,
                              part_of(progress, share(round), share(round + 1)));
         if (next.end == FitEnd::cancelled) {
+            layers = before;
             result.fit.end = FitEnd::cancelled;
             break;
         }
-        result.added.push_back(result.left);
-        result.source = std::move(finer), result.fit = std::move(next);
+        result.added.push_back(static_cast<long>(layers.file().positions.rows() - before.file().positions.rows()));
+        result.fit = std::move(next);
     }
-    if (result.fit.end == FitEnd::cancelled) return result;
-    if (options.method == FitMethod::surface && !options.on_surface)
-        result.fit.positions = lifted({result.fit.positions, result.source.triangles, {}, {}, {}}, target);
-    if (options.markers_exact)
-        meet_markers(result.fit, result.source, target, moved_to(result.source, source, markers));
+    if (result.fit.end != FitEnd::cancelled && options.method == FitMethod::surface && !options.on_surface)
+        result.fit.positions = lifted({result.fit.positions, layers.whole.triangles, {}, {}, {}}, to.mesh());
+    if (result.fit.end != FitEnd::cancelled && options.markers_exact)
+        meet_markers(result.fit, layers.whole, to.mesh(), moved_to(layers.whole, source, markers));
+    result.fit.positions = layers.expanded(result.fit.positions);
+    result.fit.refused = layers.expanded(result.fit.refused);
+    result.source = std::move(layers.file());
     return result;
 }
 

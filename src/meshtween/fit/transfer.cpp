@@ -2,6 +2,7 @@
 
 #include "meshtween/core/parallel.h"
 #include "meshtween/geometry/measure.h"
+#include "meshtween/io/seams.h"
 #include "meshtween/search/closest_point.h"
 
 #include <Eigen/LU>
@@ -80,7 +81,7 @@ bool goes_on(const Texcoord& own, const Texcoord& centre, const Continued& chart
 }
 
 // Corners of one vertex with the same texture coordinates share them from here on.
-void weld(Mesh& mesh) {
+void share_texcoords(Mesh& mesh) {
     const auto corner_count = 3 * mesh.triangles.rows();
     std::vector<Eigen::Index> order(idx(corner_count));
     std::iota(order.begin(), order.end(), Eigen::Index(0));
@@ -97,8 +98,17 @@ void weld(Mesh& mesh) {
     mesh.texcoords = kept.topRows(count);
 }
 
+// Where the file's numbering is cut, texture coordinates are too, also where they go on.
+Triangles texcoord_corners(const Mesh& mesh) {
+    const Weld found = seams(mesh);
+    if (!found.any()) return mesh.texcoord_triangles;
+    Mesh whole = welded(mesh, found);
+    share_texcoords(whole);
+    return whole.texcoord_triangles;
+}
+
 void carry_texcoords(Mesh& receiver, const Mesh& giver, const std::vector<SurfacePoint>& places) {
-    const std::vector<int> chart = charts(giver.texcoord_triangles);
+    const std::vector<int> chart = charts(texcoord_corners(giver));
     Points centres(receiver.triangles.rows(), 3);
     for (Eigen::Index t = 0; t < centres.rows(); ++t)
         centres.row(t) =
@@ -129,7 +139,7 @@ void carry_texcoords(Mesh& receiver, const Mesh& giver, const std::vector<Surfac
             }
         },
         256);
-    weld(receiver);
+    share_texcoords(receiver);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "meshtween/core/parallel.h"
 #include "meshtween/geometry/measure.h"
+#include "meshtween/io/seams.h"
 
 #include <algorithm>
 #include <array>
@@ -36,10 +37,15 @@ std::vector<double> stretch(const Mesh& source, const Mesh& fitted) {
     const auto middle = logarithms.begin() + std::ssize(logarithms) / 2;
     std::nth_element(logarithms.begin(), middle, logarithms.end());
     const double usual = *middle;
+    const Weld one = seams(source, {&source.positions, &fitted.positions});
     each([&](int i, int j, double l) {
         const double f = std::exp(std::abs(l - usual));
-        for (const int v : {i, j}) factor[idx(v)] = std::max(factor[idx(v)], f);
+        for (const int v : {i, j}) {
+            const int at = one.any() ? one.first[idx(one.vertex[idx(v)])] : v;
+            factor[idx(at)] = std::max(factor[idx(at)], f);
+        }
     });
+    one.share(factor);
     return factor;
 }
 

@@ -60,19 +60,20 @@ struct Found {
 
 class Checker {
 public:
-    explicit Checker(const Mesh& mesh) : mesh_(mesh), t_(mesh.triangles) {}
+    Checker(const Mesh& mesh, const Weld& weld)
+        : mesh_(mesh), t_(mesh.triangles), weld_(weld), w_(weld.any() ? weld.by_first() : mesh.triangles) {}
 
     std::vector<Finding> run() {
         if (t_.rows() == 0)
             add(Severity::error, 0, fmt::format("there are no faces, only {} vertices", mesh_.positions.rows()));
         const bool finite = check_coordinates(), in_range = check_indices();
         if (t_.rows() == 0 || !in_range) return std::move(findings_);
-        top_ = topology(mesh_.positions.rows(), t_);
+        top_ = topology(mesh_.positions.rows(), w_);
         check_repeated_vertices();
         if (finite) check_areas();
         check_duplicate_faces();
         check_unused_vertices();
-        if (finite) check_equal_places();
+        if (finite) check_seams();
         check_edges();
         check_vertex_fans();
         check_orientation();
@@ -141,7 +142,7 @@ private:
     std::vector<Face> faces_from(int v) const {
         std::vector<Face> faces;
         for (const int t : top_.vertex_triangles[v]) {
-            std::array<int, 3> key{t_(t, 0), t_(t, 1), t_(t, 2)};
+            std::array<int, 3> key{w_(t, 0), w_(t, 1), w_(t, 2)};
             std::sort(key.begin(), key.end());
             if (key[0] == v) faces.emplace_back(key, t);
         }
@@ -186,35 +187,43 @@ private:
 
     void check_unused_vertices() {
         Found<Eigen::Index> bad;
-        for (Eigen::Index v = 0; v < mesh_.positions.rows(); ++v)
-            if (top_.vertex_triangles[v].empty()) bad.add(v);
+        std::vector<char> used(static_cast<std::size_t>(mesh_.positions.rows()), 0);
+        for (const int v : t_.reshaped()) used[static_cast<std::size_t>(v)] = 1;
+        for (std::size_t v = 0; v < used.size(); ++v)
+            if (used[v] == 0) bad.add(static_cast<Eigen::Index>(v));
         unused_ = bad.count;
         if (bad.any())
             add(Severity::warning, bad.count,
                 bad.with("vertex", "vertices", "belongs to no face", "belong to no face"));
     }
 
-    void check_equal_places() {
-        std::vector<Eigen::Index> order(static_cast<std::size_t>(mesh_.positions.rows()));
-        std::iota(order.begin(), order.end(), Eigen::Index{0});
-        const auto place = [&](Eigen::Index v) {
-            return std::tuple(mesh_.positions(v, 0), mesh_.positions(v, 1), mesh_.positions(v, 2));
-        };
-        std::sort(order.begin(), order.end(),
-                  [&](Eigen::Index a, Eigen::Index b) { return place(a) != place(b) ? place(a) < place(b) : a < b; });
-        Found<std::string> bad;
-        for (std::size_t i = 1, first = 0; i < order.size(); ++i) {
-            if (place(order[i]) != place(order[first]))
-                first = i;
-            else
-                bad.add(fmt::format("{} on {}", order[i], order[first]));
+    void check_seams() {
+        Found<std::string> copies;
+        for (const int v : weld_.on_seam) {
+            const int first = weld_.first[static_cast<std::size_t>(weld_.vertex[static_cast<std::size_t>(v)])];
+            if (v != first) copies.add(fmt::format("{} on {}", v, first));
         }
-        if (bad.any())
-            add(Severity::note, bad.count,
-                fmt::format("{} ({}); a seam? The surface is cut there: weld it if it should be whole",
-                            bad.count == 1 ? "a vertex lies exactly on another"
-                                           : fmt::format("{} vertices lie exactly on others", bad.count),
-                            bad.list()));
+        copies_ = copies.count;
+        if (copies.any())
+            add(Severity::note, copies.count,
+                fmt::format("{} where edges pair up ({}): a seam of the file, the surface is whole there and each "
+                            "counts once",
+                            copies.count == 1 ? "a vertex lies on another"
+                                              : fmt::format("{} vertices lie on others", copies.count),
+                            copies.list()));
+        Found<int> slit, apart;
+        for (const int v : weld_.left_open) slit.add(v);
+        for (const int v : weld_.touching)
+            if (!std::binary_search(weld_.left_open.begin(), weld_.left_open.end(), v)) apart.add(v);
+        if (slit.any())
+            add(Severity::note, slit.count,
+                slit.with("vertex", "vertices", "lies", "lie") +
+                    " along a slit whose sides touch, such as closed lips: a border, for the texture goes on there and "
+                    "nothing but the shape split it");
+        if (apart.any())
+            add(Severity::note, apart.count,
+                apart.with("vertex", "vertices", "lies on another where edges do", "lie on others where edges do") +
+                    " not pair up: a border, the surface is cut there; weld it if it should be whole");
     }
 
     std::vector<int> triangles_on(const Edge& edge) const {
@@ -250,7 +259,7 @@ private:
         std::vector<std::pair<int, int>> spokes; // the vertex at an edge's other end, and the triangle
         for (int i = 0; i < static_cast<int>(around.size()); ++i)
             for (int k = 0; k < 3; ++k)
-                if (const int w = t_(around[static_cast<std::size_t>(i)], k); w != v) spokes.emplace_back(w, i);
+                if (const int w = w_(around[static_cast<std::size_t>(i)], k); w != v) spokes.emplace_back(w, i);
         std::sort(spokes.begin(), spokes.end());
         std::vector<int> parent(around.size());
         std::iota(parent.begin(), parent.end(), 0);
@@ -286,7 +295,7 @@ private:
     // Whether triangle t runs from a to b.
     bool runs(int t, int a, int b) const {
         for (int k = 0; k < 3; ++k)
-            if (t_(t, k) == a && t_(t, (k + 1) % 3) == b) return true;
+            if (w_(t, k) == a && w_(t, (k + 1) % 3) == b) return true;
         return false;
     }
 
@@ -321,7 +330,7 @@ private:
                 fmt::format("the surface has {} separate parts, of {} vertices", number_word(parts_),
                             listed(sizes, sizes.size())));
         if (closed_) return;
-        const auto loops = boundary_loops(t_, top_);
+        const auto loops = boundary_loops(w_, top_);
         std::vector<std::size_t> lengths;
         lengths.reserve(loops.size());
         for (const auto& loop : loops) lengths.push_back(loop.size());
@@ -334,14 +343,14 @@ private:
     }
 
     void check_inside_out() {
-        if (volume(mesh_.positions, t_) < 0)
+        if (volume(mesh_.positions, w_) < 0)
             add(Severity::warning, 1, "the surface is inside out: its faces look inwards, turn them all over");
     }
 
     // Euler and Poincare: V - E + F + loops = 2 (parts - handles).
     void check_genus() {
-        const long characteristic = static_cast<long>(mesh_.positions.rows()) - unused_ - std::ssize(top_.edges) +
-                                    static_cast<long>(t_.rows()) + loops_;
+        const long characteristic = static_cast<long>(mesh_.positions.rows()) - unused_ - copies_ -
+                                    std::ssize(top_.edges) + static_cast<long>(w_.rows()) + loops_;
         const long doubled = 2 * parts_ - characteristic;
         if (oriented_ && doubled > 0 && doubled % 2 == 0)
             add(Severity::note, doubled / 2,
@@ -351,16 +360,22 @@ private:
 
     const Mesh& mesh_;
     const Triangles& t_;
+    const Weld& weld_;
+    Triangles w_; // each corner the first of the vertices that are one
     Topology top_;
     std::vector<Finding> findings_;
-    long unused_ = 0, parts_ = 0, loops_ = 0;
+    long unused_ = 0, copies_ = 0, parts_ = 0, loops_ = 0;
     bool closed_ = true, oriented_ = true, manifold_ = true;
 };
 
 } // namespace
 
 std::vector<Finding> check(const Mesh& mesh) {
-    return Checker(mesh).run();
+    return check(mesh, weld(mesh));
+}
+
+std::vector<Finding> check(const Mesh& mesh, const Weld& weld) {
+    return Checker(mesh, weld).run();
 }
 
 } // namespace meshtween

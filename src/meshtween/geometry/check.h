@@ -2,6 +2,7 @@
 #pragma once
 
 #include "meshtween/core/mesh.h"
+#include "meshtween/geometry/weld.h"
 
 #include <string>
 #include <vector>
@@ -21,6 +22,8 @@ struct Finding {
 };
 
 // At most one finding a kind, with the first few elements named and how many there are; empty for a clean closed mesh.
+// Vertices that seams of the file split count as one; `weld` says which, where the caller knows more than the mesh.
 std::vector<Finding> check(const Mesh& mesh);
+std::vector<Finding> check(const Mesh& mesh, const Weld& weld);
 
 } // namespace meshtween

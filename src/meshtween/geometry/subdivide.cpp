@@ -107,7 +107,9 @@ Mesh subdivide(const Mesh& mesh, int times) {
     return fine;
 }
 
-Mesh subdivide(const Mesh& mesh, const Topology& topology, const std::vector<char>& cut) {
+namespace {
+
+CutPlan planned(const Mesh& mesh, const Topology& topology, const std::vector<char>& cut) {
     CutPlan plan;
     const auto flag = [&](const std::array<int, 2>& ends) {
         const auto edge = std::lower_bound(topology.edges.begin(), topology.edges.end(), ends,
@@ -126,7 +128,17 @@ Mesh subdivide(const Mesh& mesh, const Topology& topology, const std::vector<cha
         const Point c = corner(whole), a = corner(whole + 1), b = corner(whole + 2);
         plan.other_diagonal.push_back(((a + b) / 2 - c).norm() < ((b + c) / 2 - a).norm() ? 1 : 0);
     }
-    return cut_mesh(mesh, plan);
+    return plan;
+}
+
+} // namespace
+
+Mesh subdivide(const Mesh& mesh, const Topology& topology, const std::vector<char>& cut) {
+    return cut_mesh(mesh, planned(mesh, topology, cut));
+}
+
+Mesh subdivide(const Mesh& mesh, const Mesh& whole, const Topology& topology, const std::vector<char>& cut) {
+    return cut_mesh(mesh, planned(whole, topology, cut));
 }
 
 } // namespace meshtween

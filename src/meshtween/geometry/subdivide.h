@@ -16,4 +16,8 @@ Mesh subdivide(const Mesh& mesh, int times);
 // two, three or four, so that the mesh stays whole. Vertices as above.
 Mesh subdivide(const Mesh& mesh, const Topology& topology, const std::vector<char>& cut);
 
+// The same of a mesh whose numbering seams cut, where `whole` is it welded and topology and flags are of that: both are
+// cut alike, triangle by triangle. New vertices on a seam lie in one place, one for each of the file's edges.
+Mesh subdivide(const Mesh& mesh, const Mesh& whole, const Topology& topology, const std::vector<char>& cut);
+
 } // namespace meshtween

@@ -3,6 +3,7 @@
 #include "meshtween/morph/keys.h"
 
 #include "meshtween/core/error.h"
+#include "meshtween/io/seams.h"
 
 #include <fmt/format.h>
 
@@ -107,11 +108,24 @@ void add(RepairReport& sum, const RepairReport& one) {
     sum.moved = std::max(sum.moved, one.moved);
 }
 
-} // namespace
+// Vertices that are one in all shapes. None where the shapes do not fit the mesh, which morph() tells.
+Weld common_seams(const Mesh& mesh, const std::vector<Points>& shapes) {
+    std::vector<const Points*> all;
+    for (const Points& shape : shapes) {
+        if (shape.rows() != mesh.positions.rows()) return {};
+        all.push_back(&shape);
+    }
+    return seams(mesh, all);
+}
 
-KeyPath key_path(const Mesh& mesh, const std::vector<Points>& shapes, const KeyOptions& options,
-                 const Progress& progress) {
-    if (shapes.size() < 2) throw Error(ErrorKind::argument, "a path through keys needs at least two shapes");
+std::vector<Points> reduced(const std::vector<Points>& shapes, const Weld& seams) {
+    std::vector<Points> result;
+    for (const Points& shape : shapes) result.push_back(seams.reduced(shape));
+    return result;
+}
+
+KeyPath welded_path(const Mesh& mesh, const std::vector<Points>& shapes, const KeyOptions& options,
+                    const Progress& progress) {
     const std::size_t count = shapes.size() - (options.closed ? 0 : 1);
     const std::vector<double> times = checked_times(count, options.times);
     const auto piece_of = [&](const Progress& whole, std::size_t k, double from, double to) {
@@ -150,6 +164,23 @@ KeyPath key_path(const Mesh& mesh, const std::vector<Points>& shapes, const KeyO
     return path;
 }
 
+} // namespace
+
+KeyPath key_path(const Mesh& mesh, const std::vector<Points>& shapes, const KeyOptions& options,
+                 const Progress& progress) {
+    if (shapes.size() < 2) throw Error(ErrorKind::argument, "a path through keys needs at least two shapes");
+    const Weld found = options.morph.weld ? common_seams(mesh, shapes) : Weld();
+    if (!found.any()) return welded_path(mesh, shapes, options, progress);
+    KeyOptions inner = options;
+    if (inner.timing) {
+        const Eigen::VectorXd start = inner.timing->start(found.first), end = inner.timing->end(found.first);
+        inner.timing = RegionTiming{start, end};
+    }
+    KeyPath path = welded_path(welded(mesh, found), reduced(shapes, found), inner, progress);
+    for (Points& node : path.curve.nodes) node = found.expanded(node);
+    return path;
+}
+
 Points blend(const Mesh& mesh, const std::vector<Points>& shapes, const std::vector<double>& weights,
              const MorphOptions& options) {
     if (shapes.empty() || shapes.size() != weights.size())
@@ -162,16 +193,17 @@ Points blend(const Mesh& mesh, const std::vector<Points>& shapes, const std::vec
     std::iota(order.begin(), order.end(), std::size_t{0});
     // Positive weights first, the heaviest leading: sums on the way never vanish.
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return weights[a] > weights[b]; });
-    Mesh current = mesh;
-    current.positions = shapes[order[0]];
+    const Weld found = options.weld ? common_seams(mesh, shapes) : Weld();
+    Mesh current = welded(mesh, found);
+    current.positions = found.reduced(shapes[order[0]]);
     double so_far = weights[order[0]];
     for (std::size_t k = 1; k < order.size(); ++k) {
         const double weight = weights[order[k]];
         if (weight == 0) continue;
         so_far += weight;
-        current.positions = morph(current, shapes[order[k]], options).at(weight / so_far);
+        current.positions = morph(current, found.reduced(shapes[order[k]]), options).at(weight / so_far);
     }
-    return current.positions;
+    return found.expanded(current.positions);
 }
 
 } // namespace meshtween

@@ -1,12 +1,15 @@
 #include "meshtween/morph/morph.h"
 
 #include "meshtween/core/error.h"
+#include "meshtween/io/seams.h"
 #include "meshtween/morph/methods.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <array>
+#include <memory>
+#include <utility>
 
 namespace meshtween {
 namespace {
@@ -78,8 +81,9 @@ const std::vector<MorphMethod>& morph_methods() {
     return all;
 }
 
-Morph morph(const Mesh& from, const Points& to, const MorphOptions& options, const Progress& progress) {
-    require_sound(from, to, options);
+namespace {
+
+Morph morph_by_method(const Mesh& from, const Points& to, const MorphOptions& options, const Progress& progress) {
     switch (options.method) {
     case MorphMethod::rigid:
         return rigid_morph(from, to, options, progress);
@@ -97,6 +101,29 @@ Morph morph(const Mesh& from, const Points& to, const MorphOptions& options, con
         return dual_mesh_morph(from, to, options);
     }
     throw Error(ErrorKind::argument, "no such method");
+}
+
+// The file's numbering around a path of the welded mesh.
+Morph expanded(Morph inner, Weld seams) {
+    const auto shared = std::make_shared<const Weld>(std::move(seams));
+    Morph result = inner;
+    result.at = [shared, at = inner.at](double u) { return shared->expanded(at(u)); };
+    result.at_each = [shared, at_each = inner.at_each](const Eigen::VectorXd& own, double whole) {
+        const Eigen::VectorXd of_first = own(shared->first);
+        return shared->expanded(at_each(of_first, whole));
+    };
+    return result;
+}
+
+} // namespace
+
+Morph morph(const Mesh& from, const Points& to, const MorphOptions& options, const Progress& progress) {
+    require_sound(from, to, options);
+    if (!options.weld || options.method == MorphMethod::linear) return morph_by_method(from, to, options, progress);
+    Weld found = seams(from, {&from.positions, &to});
+    if (!found.any()) return morph_by_method(from, to, options, progress);
+    Morph inner = morph_by_method(welded(from, found), found.reduced(to), options, progress);
+    return expanded(std::move(inner), std::move(found));
 }
 
 } // namespace meshtween

@@ -35,6 +35,7 @@ struct MorphOptions {
     int max_sweeps = 5000;
     int patches = 400; // of `rigid`: pieces whose rotations are interpolated against their neighbours'
     int rounds = 12;   // of `rigid`: of correcting the lengths of the middle shape, where they lack much; 0 for none
+    bool weld = true;  // vertices that a seam of the file split are one vertex where all shapes have them in one place
 };
 
 // A path of shapes: at(0) is `from`, at(1) is `to`, to rounding; dual_as_printed only to its solve's tolerance. Safe to

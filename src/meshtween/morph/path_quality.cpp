@@ -4,6 +4,7 @@
 #include "meshtween/core/parallel.h"
 #include "meshtween/geometry/measure.h"
 #include "meshtween/geometry/topology.h"
+#include "meshtween/io/seams.h"
 #include "meshtween/morph/patches.h"
 #include "meshtween/search/self_intersections.h"
 
@@ -101,6 +102,17 @@ PathQuality path_quality(const Triangles& triangles, const std::function<Points(
         }
     }
     return result;
+}
+
+PathQuality path_quality(const Mesh& mesh, const std::function<Points(double u)>& at, const PathQualityOptions& options,
+                         const Progress& progress) {
+    if (!options.weld) return path_quality(mesh.triangles, at, options, progress);
+    std::vector<Points> shapes;
+    std::vector<const Points*> all;
+    for (const double u : options.keys) shapes.push_back(at(u));
+    for (const Points& shape : shapes) all.push_back(&shape);
+    const Weld found = seams(mesh, all);
+    return path_quality(found.any() ? found.by_first() : mesh.triangles, at, options, progress);
 }
 
 } // namespace meshtween

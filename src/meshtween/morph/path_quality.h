@@ -28,11 +28,14 @@ struct PathQualityOptions {
     int frames = 11;                // 2 or more, evenly from key to key
     std::vector<double> keys{0, 1}; // ascending: what is measured against ends is measured against the keys around
     bool self_intersections = true; // the longest part
+    bool weld = true; // of a mesh: what a seam of the file split is one vertex where all keys have it in one place
 };
 
 // A triangle counts as flipped where its normal looks against the one that the mean rotation of the triangles around it
 // would give it, whichever end one starts from: turns of the shape do not count, nor folds that both ends have.
 PathQuality path_quality(const Triangles& triangles, const std::function<Points(double u)>& at,
+                         const PathQualityOptions& options = {}, const Progress& progress = {});
+PathQuality path_quality(const Mesh& mesh, const std::function<Points(double u)>& at,
                          const PathQualityOptions& options = {}, const Progress& progress = {});
 
 } // namespace meshtween

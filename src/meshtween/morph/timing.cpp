@@ -2,6 +2,7 @@
 
 #include "meshtween/core/error.h"
 #include "meshtween/geometry/measure.h"
+#include "meshtween/io/seams.h"
 #include "meshtween/solve/cholesky.h"
 #include "meshtween/solve/laplacian.h"
 
@@ -9,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <tuple>
 
 namespace meshtween {
 
@@ -51,7 +54,9 @@ double ping_pong(double t) {
     return phase < 0.5 ? 2 * phase : 2 - 2 * phase;
 }
 
-RegionTiming region_timing(const Mesh& mesh, const std::vector<TimedVertex>& given, double width) {
+namespace {
+
+RegionTiming timing_of_whole(const Mesh& mesh, const std::vector<TimedVertex>& given, double width) {
     const Eigen::Index n = mesh.positions.rows();
     if (!(width >= 0)) throw Error(ErrorKind::argument, "the width over which times are smoothed must not be negative");
     const SparseMatrix laplacian =
@@ -96,6 +101,27 @@ RegionTiming region_timing(const Mesh& mesh, const std::vector<TimedVertex>& giv
         timing.end[i] = std::max(timing.end[i], timing.start[i] + shortest);
     }
     return timing;
+}
+
+// For welded vertices; what copies say alike is said once.
+std::vector<TimedVertex> reduced(const std::vector<TimedVertex>& given, const Weld& seams) {
+    std::vector<TimedVertex> result;
+    std::set<std::tuple<int, double, double>> said;
+    for (TimedVertex v : given) {
+        if (v.vertex >= 0 && v.vertex < std::ssize(seams.vertex))
+            v.vertex = seams.vertex[static_cast<std::size_t>(v.vertex)];
+        if (said.insert({v.vertex, v.start, v.end}).second) result.push_back(v);
+    }
+    return result;
+}
+
+} // namespace
+
+RegionTiming region_timing(const Mesh& mesh, const std::vector<TimedVertex>& given, double width) {
+    const Weld found = seams(mesh);
+    if (!found.any()) return timing_of_whole(mesh, given, width);
+    const RegionTiming timing = timing_of_whole(welded(mesh, found), reduced(given, found), width);
+    return {timing.start(found.vertex), timing.end(found.vertex)};
 }
 
 Eigen::VectorXd own_times(const RegionTiming& timing, double u) {
