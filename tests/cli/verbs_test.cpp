@@ -1,4 +1,5 @@
 // Every verb, run as a user would.
+#include "support/cut.h"
 #include "support/program.h"
 
 #include "meshtween/geometry/measure.h"
@@ -383,6 +384,33 @@ TEST_F(Verbs, OneTemplateOnTwoTargets) {
          "--markers-a", file("build_markers.csv"), "--markers-b", file("self.csv"), "--at", "1", "-o",
          file("one.ply")});
     EXPECT_TRUE(std::filesystem::exists(folder_ / "one.ply"));
+}
+
+TEST_F(Verbs, SeamsStayClosed) {
+    egg();
+    const meshtween::CutMesh flat = meshtween::flat_shaded(meshtween::read_mesh(folder_ / "ball.ply"));
+    meshtween::write_mesh(flat.mesh, folder_ / "flat.ply");
+    EXPECT_NE(run({"check", file("flat.ply")}).out.find("a seam of the file"), std::string::npos);
+    const auto opened = [&](const std::string& name) {
+        const meshtween::Points x = meshtween::read_mesh(folder_ / name).positions;
+        std::vector<Eigen::Index> first(flat.vertex.size(), -1);
+        bool open = false;
+        for (std::size_t i = 0; i < flat.vertex.size(); ++i) {
+            Eigen::Index& there = first[static_cast<std::size_t>(flat.vertex[i])];
+            if (there < 0) there = static_cast<Eigen::Index>(i);
+            open = open || x.row(static_cast<Eigen::Index>(i)) != x.row(there);
+        }
+        return open;
+    };
+    run({"fit", file("flat.ply"), file("egg.ply"), "--markers", file("egg.csv"), "-o", file("fitted.ply")});
+    EXPECT_FALSE(opened("fitted.ply"));
+    run({"fit", file("flat.ply"), file("egg.ply"), "--markers", file("egg.csv"), "-o", file("apart.ply"), "--no-weld"});
+    EXPECT_TRUE(opened("apart.ply"));
+    run({"tween", file("flat.ply"), file("fitted.ply"), "--at", "0.3", "-o", file("between.ply")});
+    EXPECT_FALSE(opened("between.ply"));
+    const Json measured = Json::parse(run({"measure", file("flat.ply"), file("fitted.ply"), file("egg.ply")}).out);
+    EXPECT_EQ(measured["self_intersections"], 0);
+    EXPECT_EQ(measured["vertices"], 642);
 }
 
 TEST_F(Verbs, CheckSpeaksOnStandardOutput) {

@@ -32,15 +32,17 @@ TEST(MorphSeams, EveryMethodKeepsThemClosed) {
             const Morph path = morph(cut->mesh, shapes(*cut)[1], options);
             for (const double u : {0.0, 0.3, 1.0}) {
                 const Points have = path.at(u), want = cut->whole(plain.at(u));
-                if (cut == &split)
+                if (cut == &split) {
                     EXPECT_EQ(have, want) << name_of(method) << u;
-                else
+                } else {
                     EXPECT_LT((have - want).rowwise().norm().maxCoeff(), 1e-9 * diagonal(want)) << name_of(method) << u;
+                }
                 for (std::size_t i = 0; i < cut->vertex.size(); ++i)
                     for (std::size_t j = 0; j < i; ++j)
-                        if (cut->vertex[i] == cut->vertex[j])
+                        if (cut->vertex[i] == cut->vertex[j]) {
                             ASSERT_EQ(have.row(static_cast<Eigen::Index>(i)), have.row(static_cast<Eigen::Index>(j)))
                                 << name_of(method);
+                        }
             }
         }
     }
