@@ -278,6 +278,18 @@ TEST(Weld, NormalsTellLipsFromASharpEdge) {
     EXPECT_TRUE(with(sharp, own(sharp))) << "a sharp edge";
 }
 
+TEST(Weld, AVertexOfNoFaceGoesWithTheSurfaceInItsPlace) {
+    Mesh ball = sphere(2);
+    const Eigen::Index n = ball.positions.rows();
+    ball.positions.conservativeResize(n + 2, 3);
+    ball.positions.row(n) = ball.positions.row(5);
+    ball.positions.row(n + 1) = Point(1000, 0, 0); // in no vertex's place, and no measure of the mesh's size
+    const Weld found = weld(ball);
+    ASSERT_TRUE(found.any());
+    EXPECT_EQ(found.vertex[static_cast<std::size_t>(n)], found.vertex[5]);
+    EXPECT_EQ(std::ssize(found.first), n + 1);
+}
+
 TEST(Weld, NormalsAreSmoothAcrossSeams) {
     const Mesh ball = sphere(3);
     const CutMesh cut = flat_shaded(ball);

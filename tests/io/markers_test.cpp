@@ -1,3 +1,4 @@
+#include "meshtween/geometry/shapes.h"
 #include "meshtween/io/markers.h"
 #include "meshtween/io/output.h"
 
@@ -198,6 +199,26 @@ TEST_F(OffMesh, TheCauseIsFound) {
     EXPECT_NE(note(identity * 1.1).find("markers lie further"), std::string::npos);
     EXPECT_EQ(note(identity * 1.1).find("stopped: "), std::string::npos) << note(identity * 1.1);
     EXPECT_NE(note(identity * 7).find("9 of 9 markers lie further from the source"), std::string::npos);
+}
+
+TEST_F(Markers, WrongSignsShowOnAShapeThatIsNearlyTheSameFromBehind) {
+    Mesh egg = sphere(3);
+    for (auto p : egg.positions.rowwise()) p[1] *= p[1] > 0 ? 1.06 : 1;
+    std::vector<MarkerPair> turned, right;
+    for (Eigen::Index i = 0; i < egg.positions.rows() && turned.size() < 12; ++i) {
+        const Point p = egg.positions.row(i);
+        if (p[1] < 0.5) continue;
+        right.push_back({"m" + std::to_string(i), p, p});
+        turned.push_back({"m" + std::to_string(i), Point(-p[0], -p[1], p[2]), p});
+    }
+    const auto notes = [&](const std::vector<MarkerPair>& pairs) {
+        write_marker_pairs(pairs, scratch.path("a.csv"));
+        return read_marker_pairs(scratch.path("a.csv"), egg, egg).notes;
+    };
+    EXPECT_TRUE(notes(right).empty());
+    ASSERT_EQ(notes(turned).size(), 1u);
+    EXPECT_NE(notes(turned)[0].find("further from the source than they would with x and y negated"), std::string::npos)
+        << notes(turned)[0];
 }
 
 TEST_F(Markers, OnOfManyOffTheMeshIsNamed) {

@@ -50,29 +50,35 @@ private:
     std::vector<int> parent_; // never above the vertex itself
 };
 
-// Finite vertices of some triangle, ascending.
-std::vector<int> used_vertices(const Triangles& triangles, const std::vector<const Points*>& shapes) {
-    std::vector<char> used(idx(shapes.front()->rows()), 0);
-    for (const int v : triangles.reshaped()) used[idx(v)] = 1;
+std::vector<int> finite_vertices(const std::vector<const Points*>& shapes) {
     std::vector<int> result;
-    for (std::size_t i = 0; i < used.size(); ++i)
-        if (used[i] != 0 && std::all_of(shapes.begin(), shapes.end(), [&](const Points* s) {
-                return s->row(static_cast<Eigen::Index>(i)).allFinite();
-            }))
+    for (Eigen::Index i = 0; i < shapes.front()->rows(); ++i)
+        if (std::all_of(shapes.begin(), shapes.end(), [&](const Points* s) { return s->row(i).allFinite(); }))
             result.push_back(static_cast<int>(i));
+    return result;
+}
+
+// Those of some triangle: vertices of none may lie anywhere and say nothing of the mesh's size.
+std::vector<int> used_among(const std::vector<int>& vertices, const Triangles& triangles) {
+    std::vector<char> used(vertices.empty() ? 0 : idx(std::max(vertices.back(), triangles.maxCoeff())) + 1, 0);
+    for (const int v : triangles.reshaped())
+        if (!used.empty()) used[idx(v)] = 1;
+    std::vector<int> result;
+    for (const int v : vertices)
+        if (used[idx(v)] != 0) result.push_back(v);
     return result;
 }
 
 // For each vertex the first in its place: those within reach in all shapes, directly or through others. Neighbours are
 // found along a direction in which no two points of a usual mesh lie at one height.
 std::vector<int> places_of(const Triangles& triangles, const std::vector<const Points*>& shapes) {
-    const std::vector<int> used = used_vertices(triangles, shapes);
+    const std::vector<int> finite = finite_vertices(shapes), used = used_among(finite, triangles);
     std::vector<double> near;
     for (const Points* shape : shapes) near.push_back(squared_reach(*shape, used));
     const Point along(0.5257311, 0.6180213, 0.5846227);
-    std::vector<std::pair<double, int>> heights(used.size());
-    parallel_for(std::ssize(used), [&](std::ptrdiff_t i) {
-        heights[idx(i)] = {shapes.front()->row(used[idx(i)]).dot(along), used[idx(i)]};
+    std::vector<std::pair<double, int>> heights(finite.size());
+    parallel_for(std::ssize(finite), [&](std::ptrdiff_t i) {
+        heights[idx(i)] = {shapes.front()->row(finite[idx(i)]).dot(along), finite[idx(i)]};
     });
     std::sort(heights.begin(), heights.end());
     const double step = std::sqrt(near.front()) * 1.01;
@@ -205,10 +211,11 @@ std::vector<SeamEdge> paired_edges(const Triangles& triangles, const std::vector
     return all;
 }
 
-// Lines and points that hang together with no triangle belong to the surface in their place, where there is one.
-void join_slivers(const Triangles& triangles, const std::vector<int>& place, const std::vector<char>& shared,
+// Lines, points and vertices of no face that hang together with no triangle belong to the surface in their place, where
+// there is one.
+void join_loose(const Triangles& triangles, const std::vector<int>& place, const std::vector<char>& shared,
                   Classes& classes) {
-    std::vector<char> proper(place.size(), 0), loose(place.size(), 0);
+    std::vector<char> proper(place.size(), 0), loose(place.size(), 1);
     const auto each = [&](bool of_proper, const auto& visit) {
         for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
             const int a = place[idx(triangles(t, 0))], b = place[idx(triangles(t, 1))], c = place[idx(triangles(t, 2))];
@@ -216,10 +223,7 @@ void join_slivers(const Triangles& triangles, const std::vector<int>& place, con
         }
     };
     each(true, [&](Eigen::Index t) {
-        for (int k = 0; k < 3; ++k) proper[idx(triangles(t, k))] = 1;
-    });
-    each(false, [&](Eigen::Index t) {
-        for (int k = 0; k < 3; ++k) loose[idx(triangles(t, k))] = 1;
+        for (int k = 0; k < 3; ++k) proper[idx(triangles(t, k))] = 1, loose[idx(triangles(t, k))] = 0;
     });
     each(false, [&](Eigen::Index t) {
         if (std::any_of(triangles.row(t).begin(), triangles.row(t).end(), [&](int v) { return proper[idx(v)] != 0; }))
@@ -302,7 +306,7 @@ Weld weld(const Mesh& mesh, const std::vector<const Points*>& given, const Corne
     }
     std::sort(result.left_open.begin(), result.left_open.end());
     result.left_open.erase(std::unique(result.left_open.begin(), result.left_open.end()), result.left_open.end());
-    join_slivers(mesh.triangles, place, shared, classes);
+    join_loose(mesh.triangles, place, shared, classes);
     number(result, mesh.triangles, place, classes);
     return result;
 }

@@ -123,6 +123,34 @@ std::string likely_remedy(const Points& places, const Surface& own, const NamedM
     return "see whether they belong to this model, in this place";
 }
 
+// Mean distance of the places, of the diagonal.
+double mean_distance(const Points& places, const Surface& surface) {
+    std::vector<double> each(static_cast<std::size_t>(places.rows()));
+    parallel_for(
+        places.rows(), [&](Eigen::Index i) { each[static_cast<std::size_t>(i)] = surface.distance(places.row(i)); }, 4);
+    return std::accumulate(each.begin(), each.end(), 0.0) / static_cast<double>(each.size());
+}
+
+// On a shape that is nearly the same from behind, wrong signs move no marker far. They still show: with x and y negated
+// all lie on the surface, as they do not now.
+std::string wrong_signs(const Points& places, const Surface& surface, const std::string& mesh,
+                        const std::string& system, std::string_view what) {
+    constexpr Eigen::Index most = 16, least = 3; // each is held against all of the surface
+    constexpr double off = 1e-3, clearly = 0.1; // of the diagonal; of the distance as it is
+    if (places.rows() < least) return {};
+    const Points some = places.topRows(std::min(places.rows(), most));
+    const double given = mean_distance(some, surface);
+    if (given < off) return {};
+    const Points turned = some * Eigen::Vector3d(-1, -1, 1).asDiagonal();
+    const double negated = mean_distance(turned, surface);
+    if (negated > clearly * given) return {};
+    return fmt::format("the {} lie further from the {} than they would with x and y negated, {:.2g} % of its diagonal "
+                       "in the mean and not {:.2g} %: one is in LPS coordinates and the other in RAS, it seems; negate "
+                       "x and y in the file{}",
+                       what, mesh, 100 * given, 100 * negated,
+                       system.empty() ? "" : fmt::format(", or give --markers-system {}", system));
+}
+
 } // namespace
 
 MarkerDistances marker_distances(const Points& places, const std::vector<std::string>& names, const NamedMesh& own,
@@ -141,7 +169,10 @@ MarkerDistances marker_distances(const Points& places, const std::vector<std::st
         result.far_names.push_back(names[i]);
     }
     const std::size_t count = result.far_names.size();
-    if (count == 0) return result;
+    if (count == 0) {
+        result.note = wrong_signs(places, surface, own.name, system, what);
+        return result;
+    }
     constexpr std::size_t most = 5;
     const bool few = 2 * count < names.size(); // a wrong unit or axis moves most of them
     const std::string remedy =
