@@ -6,99 +6,26 @@
 #include "meshtween/core/parallel.h"
 #include "meshtween/core/version.h"
 #include "meshtween/geometry/measure.h"
+#include "meshtween/io/gltf_build.h"
+#include "meshtween/io/gltf_look.h"
+#include "meshtween/io/gltf_pack.h"
+#include "meshtween/io/gltf_split.h"
+#include "meshtween/io/mesh_file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <array>
-#include <bit>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numeric>
 
 namespace meshtween {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "GLB is little-endian and written as the memory has it");
-
 using nlohmann::json;
 template <typename Number, int Columns>
-using Rows = Eigen::Matrix<Number, Eigen::Dynamic, Columns, Columns == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
-
-constexpr int array_buffer = 34962, element_array_buffer = 34963, no_target = 0; // the specification's numbers
-constexpr int type_uint16 = 5123, type_uint32 = 5125, type_float = 5126;
-
-struct Glb {
-    json root;
-    std::string bin;
-};
-
-template <typename Number>
-constexpr int component_type() {
-    if constexpr (std::is_same_v<Number, float>)
-        return type_float;
-    else
-        return sizeof(Number) == 2 ? type_uint16 : type_uint32;
-}
-
-// Adds the rows to the buffer and tells the accessor's number.
-template <typename Number, int Columns>
-int append(Glb& glb, const Rows<Number, Columns>& rows, int target, bool bounds = false) {
-    const char* const types[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
-    const auto bytes = static_cast<std::size_t>(rows.size()) * sizeof(Number);
-    glb.bin.resize((glb.bin.size() + 3) / 4 * 4, '\0');
-    json view = {{"buffer", 0}, {"byteOffset", glb.bin.size()}, {"byteLength", bytes}};
-    if (target != no_target) view["target"] = target;
-    json accessor = {{"bufferView", glb.root["bufferViews"].size()},
-                     {"componentType", component_type<Number>()},
-                     {"count", rows.rows()},
-                     {"type", types[Columns]}};
-    if (bounds) {
-        // Doubles hold floats exactly, and JSON gives doubles all their digits: the bounds are those of the data.
-        for (int c = 0; c < Columns; ++c) {
-            accessor["min"].push_back(static_cast<double>(rows.col(c).minCoeff()));
-            accessor["max"].push_back(static_cast<double>(rows.col(c).maxCoeff()));
-        }
-    }
-    glb.bin.append(reinterpret_cast<const char*>(rows.data()), bytes);
-    glb.root["bufferViews"].push_back(std::move(view));
-    glb.root["accessors"].push_back(std::move(accessor));
-    return static_cast<int>(glb.root["accessors"].size()) - 1;
-}
-
-// The mesh with one UV a vertex.
-struct Unseamed {
-    std::vector<int> vertices;  // the mesh's vertex for each of the file's; the first n are 0 .. n-1
-    std::vector<int> texcoords; // a row of the mesh's texcoords each, or -1
-    Triangles triangles;
-};
-
-Unseamed split_seams(const Mesh& mesh) {
-    Unseamed result{std::vector<int>(static_cast<std::size_t>(mesh.positions.rows())), {}, mesh.triangles};
-    std::iota(result.vertices.begin(), result.vertices.end(), 0);
-    if (mesh.texcoords.rows() == 0) return result;
-    std::vector<int> next(result.vertices.size(), -1); // the next copy of the same vertex
-    result.texcoords.assign(result.vertices.size(), -1);
-    for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t)
-        for (int c = 0; c < 3; ++c) {
-            const int wanted = mesh.texcoord_triangles(t, c);
-            auto at = static_cast<std::size_t>(mesh.triangles(t, c));
-            while (result.texcoords[at] >= 0 &&
-                   mesh.texcoords.row(result.texcoords[at]) != mesh.texcoords.row(wanted)) {
-                if (next[at] < 0) {
-                    next[at] = static_cast<int>(result.vertices.size());
-                    result.vertices.push_back(mesh.triangles(t, c));
-                    result.texcoords.push_back(-1);
-                    next.push_back(-1);
-                }
-                at = static_cast<std::size_t>(next[at]);
-            }
-            result.texcoords[at] = wanted;
-            result.triangles(t, c) = static_cast<int>(at);
-        }
-    return result;
-}
+using Rows = GltfColumns<Number, Columns>;
 
 void refuse(const std::string& message) {
     throw Error(ErrorKind::argument, message);
@@ -144,13 +71,10 @@ void check_input(const Mesh& mesh, const GltfMorph& morph, const std::string& na
                            count + 1, mesh.positions.rows()));
 }
 
-// Unit normals for all vertices: the validator refuses a zero, which vertices without area have.
-Points shading_normals(const Points& positions, const Triangles& triangles) {
-    Points normals = vertex_normals(positions, triangles);
-    parallel_for(normals.rows(), [&](std::ptrdiff_t i) {
-        if (normals.row(i).squaredNorm() < 0.25) normals.row(i) = Point(0, 1, 0);
-    });
-    return normals;
+std::vector<int> in_order(std::size_t count) {
+    std::vector<int> result(count);
+    std::iota(result.begin(), result.end(), 0);
+    return result;
 }
 
 // rows[map[i]] as float, less `base` (if any), which is already float: base + delta is then rounded once.
@@ -164,31 +88,61 @@ Rows<float, 3> gathered(const Points& rows, const std::vector<int>& map, const R
     return result;
 }
 
-void append_texcoords_and_colors(Glb& glb, json& attributes, const Mesh& mesh, const Unseamed& vertices) {
-    const auto count = static_cast<Eigen::Index>(vertices.vertices.size());
-    if (mesh.texcoords.rows() > 0) {
-        Rows<float, 2> uv = Rows<float, 2>::Zero(count, 2);
-        for (Eigen::Index i = 0; i < count; ++i)
-            if (const int from = vertices.texcoords[static_cast<std::size_t>(i)]; from >= 0)
-                uv.row(i) << mesh.texcoords(from, 0), 1 - mesh.texcoords(from, 1); // glTF counts v from the top
-        attributes["TEXCOORD_0"] = append(glb, uv, array_buffer);
-    }
-    if (mesh.colors.rows() > 0) {
-        Rows<float, 4> rgba(count, 4);
-        for (Eigen::Index i = 0; i < count; ++i) {
-            const auto color = mesh.colors.row(vertices.vertices[static_cast<std::size_t>(i)]);
-            rgba.row(i) = color.cwiseMax(0).cwiseMin(1);
-            for (int c = 0; c < 3; ++c) rgba(i, c) = linear_from_srgb(rgba(i, c));
+// The normals of a part's vertices; (0, 1, 0) for those of no triangle.
+Points part_normals(const Points& group_normals, const NormalGroups& groups, const GltfPrimitive& part) {
+    Points result(static_cast<Eigen::Index>(part.corners.size()), 3);
+    parallel_for(result.rows(), [&](std::ptrdiff_t i) {
+        const int corner = part.corners[static_cast<std::size_t>(i)];
+        result.row(i) = corner < 0 ? Point(0, 1, 0) : Point(group_normals.row(groups.of.data()[corner]));
+    });
+    return result;
+}
+
+void append_texcoords(Glb& glb, json& attributes, const GltfPrimitive& part, const std::vector<CornerTexcoords>& sets) {
+    for (std::size_t s = 0; s < sets.size(); ++s) {
+        Rows<float, 2> uv = Rows<float, 2>::Zero(static_cast<Eigen::Index>(part.corners.size()), 2);
+        for (Eigen::Index i = 0; i < uv.rows(); ++i) {
+            const int corner = part.corners[static_cast<std::size_t>(i)];
+            const int from = corner < 0 ? -1 : sets[s].corners.data()[corner];
+            if (from >= 0)
+                uv.row(i) << sets[s].texcoords(from, 0), 1 - sets[s].texcoords(from, 1); // glTF counts v from the top
         }
-        attributes["COLOR_0"] = append(glb, rgba, array_buffer);
+        attributes[fmt::format("TEXCOORD_{}", s)] = append(glb, uv, gltf_array_buffer);
+    }
+}
+
+void append_colors(Glb& glb, json& attributes, const GltfPrimitive& part, const Colors& colors) {
+    Rows<float, 4> rgba(static_cast<Eigen::Index>(part.vertices.size()), 4);
+    for (Eigen::Index i = 0; i < rgba.rows(); ++i) {
+        rgba.row(i) = colors.row(part.vertices[static_cast<std::size_t>(i)]).cwiseMax(0).cwiseMin(1);
+        for (int c = 0; c < 3; ++c) rgba(i, c) = linear_from_srgb(rgba(i, c));
+    }
+    attributes["COLOR_0"] = append(glb, rgba, gltf_array_buffer);
+}
+
+// Which vertex of the mesh each is. Names with an underscore are free for anyone, integers of 32 bits are not allowed
+// there, and floats count to 2^24.
+void append_numbering(Glb& glb, json& primitive, const GltfPrimitive& part, std::size_t parts) {
+    constexpr int most = 1 << 24;
+    Rows<float, 1> numbers(static_cast<Eigen::Index>(part.vertices.size()));
+    for (Eigen::Index i = 0; i < numbers.rows(); ++i) {
+        if (part.vertices[static_cast<std::size_t>(i)] > most) return;
+        numbers[i] = static_cast<float>(part.vertices[static_cast<std::size_t>(i)]);
+    }
+    primitive["attributes"]["_VERTEX"] = append(glb, numbers, gltf_array_buffer);
+    if (parts == 1) return;
+    json& runs = primitive["extras"]["triangles"];
+    for (const auto& [first, count] : part.runs) {
+        runs.push_back(first);
+        runs.push_back(count);
     }
 }
 
 int append_indices(Glb& glb, const Triangles& triangles, std::size_t vertex_count) {
     const Eigen::Map<const Rows<int, 1>> corners(triangles.data(), triangles.size());
     if (vertex_count <= 0xffff) // 65535 itself is kept for restarting a strip
-        return append<std::uint16_t, 1>(glb, corners.cast<std::uint16_t>(), element_array_buffer);
-    return append<std::uint32_t, 1>(glb, corners.cast<std::uint32_t>(), element_array_buffer);
+        return append<std::uint16_t, 1>(glb, corners.cast<std::uint16_t>(), gltf_element_array_buffer);
+    return append<std::uint32_t, 1>(glb, corners.cast<std::uint32_t>(), gltf_element_array_buffer);
 }
 
 void append_animation(Glb& glb, const GltfMorph& morph) {
@@ -196,24 +150,82 @@ void append_animation(Glb& glb, const GltfMorph& morph) {
     const Eigen::Map<const Rows<float, 1>> times(morph.times.data(), keys);
     const Eigen::Map<const Rows<float, 1>> weights(morph.weights.data(),
                                                    static_cast<Eigen::Index>(morph.weights.size()));
-    const int input = append<float, 1>(glb, times, no_target, true);
-    const int output = append<float, 1>(glb, weights, no_target);
+    const int input = append<float, 1>(glb, times, gltf_no_target, true);
+    const int output = append<float, 1>(glb, weights, gltf_no_target);
     glb.root["animations"] =
         json::array({{{"name", "morph"},
                       {"samplers", json::array({{{"input", input}, {"output", output}, {"interpolation", "LINEAR"}}})},
                       {"channels", json::array({{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}})}}});
 }
 
-// Normals of the base and all shapes.
-std::vector<Points> all_normals(const Mesh& mesh, const GltfMorph& morph) {
-    std::vector<Points> normals{shading_normals(mesh.positions, mesh.triangles)};
+// Vertex colours multiply a texture in glTF; in other formats they stand in for one.
+bool shows_colors(const Mesh& mesh) {
+    if (mesh.colors.rows() == 0) return false;
+    const MeshFile* file = mesh.file.get();
+    if (file == nullptr || file->format == ".glb" || file->format == ".gltf") return true;
+    return std::all_of(file->materials.begin(), file->materials.end(),
+                       [](const Material& material) { return material.base_color_image < 0; });
+}
+
+// The material of each triangle; none where the file has none, or one that is not told for each.
+std::vector<int> triangle_materials(const Mesh& mesh) {
+    const MeshFile* file = mesh.file.get();
+    if (file == nullptr || file->materials.empty() || file->cut.rows() != mesh.triangles.rows()) return {};
+    if (file->polygon_materials.empty()) // one material without more is everywhere
+        return std::vector<int>(file->materials.size() == 1 ? static_cast<std::size_t>(mesh.triangles.rows()) : 0, 0);
+    std::vector<int> result = polygon_of_triangles(*file);
+    for (int& polygon : result) {
+        const int material = file->polygon_materials[static_cast<std::size_t>(polygon)];
+        polygon = material < static_cast<int>(file->materials.size()) ? material : -1;
+    }
+    return result;
+}
+
+// What the parts of one mesh are made from.
+struct Source {
+    const Mesh& mesh;
+    const GltfMorph& morph;
+    Point origin;
+    std::vector<CornerTexcoords> texcoords;
+    NormalGroups groups;
+    std::vector<Points> normals; // a group each; of the base, then of the shapes
+    bool colors = false;
+
+    Points moved(const Points& positions) const { return positions.rowwise() - origin; }
+};
+
+json append_primitive(Glb& glb, const Source& source, const GltfPrimitive& part, const GltfParts& parts) {
+    const auto positions = gathered(source.moved(source.mesh.positions), part.vertices);
+    const std::vector<int> every = in_order(part.vertices.size());
+    const auto normals_of = [&](std::size_t shape) { return part_normals(source.normals[shape], source.groups, part); };
+    const auto normals = gathered(normals_of(0), every);
+    json primitive = {{"mode", 4}};
+    primitive["indices"] = append_indices(glb, part.triangles, part.vertices.size());
+    json& attributes = primitive["attributes"];
+    attributes["POSITION"] = append(glb, positions, gltf_array_buffer, true);
+    attributes["NORMAL"] = append(glb, normals, gltf_array_buffer);
+    append_texcoords(glb, attributes, part, source.texcoords);
+    if (source.colors) append_colors(glb, attributes, part, source.mesh.colors);
+    if (parts.renumbered) append_numbering(glb, primitive, part, parts.primitives.size());
+    for (std::size_t k = 0; k < source.morph.shapes.size(); ++k) {
+        const auto offsets = gathered(source.moved(source.morph.shapes[k]), part.vertices, positions);
+        const auto turns = gathered(normals_of(k + 1), every, normals);
+        const int position = append(glb, offsets, gltf_array_buffer, true);
+        primitive["targets"].push_back({{"POSITION", position}, {"NORMAL", append(glb, turns, gltf_array_buffer)}});
+    }
+    return primitive;
+}
+
+// Normals of the base and all shapes, a group each.
+std::vector<Points> all_normals(const Mesh& mesh, const GltfMorph& morph, const NormalGroups& groups) {
+    std::vector<Points> normals{group_normals(mesh.positions, groups)};
     if (morph.normal_fit.size() == 0) {
-        for (const Points& shape : morph.shapes) normals.push_back(shading_normals(shape, mesh.triangles));
+        for (const Points& shape : morph.shapes) normals.push_back(group_normals(shape, groups));
         return normals;
     }
-    normals.resize(morph.shapes.size() + 1, Points::Zero(mesh.positions.rows(), 3));
+    normals.resize(morph.shapes.size() + 1, Points::Zero(normals.front().rows(), 3));
     for (Eigen::Index s = 0; s < morph.normal_fit.cols(); ++s) {
-        const Points on = shading_normals(morph.on_path(static_cast<std::size_t>(s)), mesh.triangles);
+        const Points on = group_normals(morph.on_path(static_cast<std::size_t>(s)), groups);
         for (std::size_t k = 1; k < normals.size(); ++k)
             if (const double share = morph.normal_fit(static_cast<Eigen::Index>(k), s); share != 0)
                 parallel_for(on.rows(), [&](std::ptrdiff_t i) { normals[k].row(i) += share * on.row(i); });
@@ -221,30 +233,11 @@ std::vector<Points> all_normals(const Mesh& mesh, const GltfMorph& morph) {
     return normals;
 }
 
-std::string packed(Glb glb) {
-    glb.bin.resize((glb.bin.size() + 3) / 4 * 4, '\0');
-    glb.root["buffers"] = json::array({{{"byteLength", glb.bin.size()}}});
-    std::string text = glb.root.dump(-1, ' ', false, json::error_handler_t::replace);
-    text.resize((text.size() + 3) / 4 * 4, ' ');
-    const std::size_t total = 12 + 8 + text.size() + 8 + glb.bin.size();
-    if (total > std::numeric_limits<std::uint32_t>::max())
-        refuse("the mesh does not fit into one GLB, which ends at 4 GiB");
-    std::string result;
-    result.reserve(total);
-    const auto number = [&](std::size_t value) {
-        const auto word = static_cast<std::uint32_t>(value);
-        result.append(reinterpret_cast<const char*>(&word), sizeof word);
-    };
-    result += "glTF";
-    number(2); // version
-    number(total);
-    number(text.size());
-    result += "JSON";
-    result += text;
-    number(glb.bin.size());
-    result.append("BIN\0", 4);
-    result += glb.bin;
-    return result;
+Source source_of(const Mesh& mesh, const GltfMorph& morph) {
+    Source source{
+        mesh, morph, glb_origin(mesh.positions), corner_texcoords(mesh), normal_groups(mesh), {}, shows_colors(mesh)};
+    source.normals = all_normals(mesh, morph, source.groups);
+    return source;
 }
 
 } // namespace
@@ -260,47 +253,44 @@ std::string mesh_glb(const Mesh& mesh, const std::string& name) {
 }
 
 std::string mesh_glb(const Mesh& mesh, const GltfMorph& morph, const std::string& name) {
-    check_input(mesh, morph, name);
-    const Point origin = glb_origin(mesh.positions);
-    const Unseamed vertices = split_seams(mesh);
-    const auto moved = [&](const Points& positions) -> Points { return positions.rowwise() - origin; };
+    return packed(mesh_gltf(mesh, morph, name));
+}
 
+Glb mesh_gltf(const Mesh& mesh, const GltfMorph& morph, const std::string& name) {
+    check_input(mesh, morph, name);
+    const Source source = source_of(mesh, morph);
+    const std::vector<int> materials = triangle_materials(mesh);
+    const GltfParts parts = split_parts(mesh, source.texcoords, source.groups, materials);
     Glb glb;
     glb.root["asset"] = {{"version", "2.0"}, {"generator", std::string("meshtween ") + version()}};
-    const auto positions = gathered(moved(mesh.positions), vertices.vertices);
-    const std::vector<Points> shading = all_normals(mesh, morph);
-    const auto normals = gathered(shading.front(), vertices.vertices);
-    json primitive = {{"mode", 4}, {"material", 0}};
-    primitive["indices"] = append_indices(glb, vertices.triangles, vertices.vertices.size());
-    primitive["attributes"]["POSITION"] = append(glb, positions, array_buffer, true);
-    primitive["attributes"]["NORMAL"] = append(glb, normals, array_buffer);
-    append_texcoords_and_colors(glb, primitive["attributes"], mesh, vertices);
-    for (std::size_t k = 0; k < morph.shapes.size(); ++k) {
-        const auto offsets = gathered(moved(morph.shapes[k]), vertices.vertices, positions);
-        const auto turns = gathered(shading[k + 1], vertices.vertices, normals);
-        const int position = append(glb, offsets, array_buffer, true);
-        primitive["targets"].push_back({{"POSITION", position}, {"NORMAL", append(glb, turns, array_buffer)}});
+    json primitives = json::array();
+    for (const GltfPrimitive& part : parts.primitives) primitives.push_back(append_primitive(glb, source, part, parts));
+    const bool plain = parts.primitives.front().material < 0;
+    append_materials(glb, materials.empty() ? nullptr : mesh.file.get(), plain, source.colors, source.texcoords.size());
+    for (std::size_t p = 0; p < parts.primitives.size(); ++p) {
+        const int material = parts.primitives[p].material;
+        primitives[p]["material"] = material < 0 ? static_cast<int>(glb.root["materials"].size()) - 1 : material;
     }
 
     json node = {{"mesh", 0}, {"name", name}};
-    if (!origin.isZero()) node["translation"] = {origin[0], origin[1], origin[2]};
-    json part = {{"name", name}, {"primitives", json::array({primitive})}};
+    if (const Point& at = source.origin; !at.isZero()) node["translation"] = {at[0], at[1], at[2]};
+    json part = {{"name", name}, {"primitives", std::move(primitives)}};
     if (!morph.shapes.empty()) {
         part["weights"] = std::vector<double>(morph.shapes.size(), 0);
         part["extras"] = {{"targetNames", morph.names}, {"degree", morph.degree}, {"knots", morph.knots}};
     }
-    const std::array<double, 4> base =
-        mesh.colors.rows() > 0 ? std::array{1.0, 1.0, 1.0, 1.0} : std::array{0.70, 0.625, 0.555, 1.0}; // clay
-    glb.root["materials"] = json::array(
-        {{{"name", "surface"},
-          {"doubleSided", true},
-          {"pbrMetallicRoughness", {{"baseColorFactor", base}, {"metallicFactor", 0}, {"roughnessFactor", 0.6}}}}});
     glb.root["meshes"] = json::array({part});
     glb.root["nodes"] = json::array({node});
     glb.root["scenes"] = json::array({{{"nodes", json::array({0})}}});
     glb.root["scene"] = 0;
     if (!morph.times.empty()) append_animation(glb, morph);
-    return packed(std::move(glb));
+    return glb;
+}
+
+std::vector<std::string> mesh_glb_notes(const Mesh& mesh) {
+    if (mesh.file == nullptr || triangle_materials(mesh).empty()) return {};
+    Glb glb;
+    return append_materials(glb, mesh.file.get(), false, false, corner_texcoords(mesh).size());
 }
 
 } // namespace meshtween
