@@ -32,7 +32,7 @@ CLI::Validator a_number_in(double least, double most) {
 bool names_a_mesh(const std::string& file) {
     const std::string extension = std::filesystem::path(file).extension().string();
     const auto& known = mesh_extensions();
-    return extension != ".gltf" && std::find(known.begin(), known.end(), extension) != known.end();
+    return std::find(known.begin(), known.end(), extension) != known.end();
 }
 
 Json refined_report(const RefinedFit& done, const Mesh& source) {

@@ -105,6 +105,16 @@ TEST(GltfParts, ReadingGivesBackTheMesh) {
     EXPECT_EQ(back.file->materials[1].name, "glass");
     EXPECT_EQ(back.file->images.at(0).bytes, png);
     ASSERT_EQ(back.file->more_texcoords.size(), 1U);
+
+    // And once more, from that file: the same materials, the same order, other positions.
+    Mesh moved = back;
+    moved.positions *= 3;
+    write_mesh(moved, scratch.path("b.glb"));
+    const Mesh again = read_mesh(scratch.path("b.glb"));
+    EXPECT_EQ(again.positions, moved.positions);
+    EXPECT_EQ(again.triangles, mesh.triangles);
+    const ParsedGlb glb = parse_glb(mesh_glb(moved));
+    EXPECT_EQ(glb.root["materials"].size(), 2U);
 }
 
 TEST(GltfParts, NumbersThatAreWrongAreNotBelieved) {

@@ -171,7 +171,7 @@ void check_still(const std::vector<Output>& outputs) {
         if (kind == OutputKind::html || kind == OutputKind::sequence || kind == OutputKind::plot ||
             kind == OutputKind::film)
             throw Error(ErrorKind::argument, fmt::format("-o {} shows a whole morph, but here is one shape; use .obj, "
-                                                         ".ply, .stl, .off, .glb, .vtk, .vtp, .usda or .png",
+                                                         ".ply, .stl, .off, .glb, .gltf, .vtk, .vtp, .usda or .png",
                                                          path.string()));
 }
 
@@ -202,7 +202,7 @@ Output output(const std::string& name) {
     if (is_mesh_extension(extension)) return {OutputKind::mesh, path};
     throw Error(ErrorKind::argument,
                 fmt::format("-o {}: cannot tell what to write from \"{}\"; use .glb, .usda, .html, .png, "
-                            ".apng, .svg, .obj, .ply, .stl, .off, .vtk, .vtp, "
+                            ".apng, .svg, .obj, .ply, .stl, .off, .gltf, .vtk, .vtp, "
                             "or frame_####.obj for a numbered sequence",
                             name, extension));
 }
@@ -249,7 +249,7 @@ Written write_outputs(const Playable& playable, const std::vector<Output>& outpu
                      {fmt::format("{}: shows the first look alone; .glb and .html fade to the other", path.string())});
         }
         if (kind == OutputKind::glb || kind == OutputKind::html || kind == OutputKind::usd)
-            note(written, left_behind(playable.mesh, path));
+            note(written, left_behind(playable.mesh, path, true));
         if (kind == OutputKind::sheet) written.cancelled = !write_sheet(playable, path, part);
         if (kind == OutputKind::film) written.cancelled = !write_film(playable, path, part);
         if (kind == OutputKind::plot) write_plot(playable, path, part, written);

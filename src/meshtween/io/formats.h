@@ -33,6 +33,11 @@ std::vector<std::string> write_vtp(const Mesh& mesh, const std::filesystem::path
 std::vector<std::string> write_usda(const Mesh& mesh, const std::filesystem::path& path, const WriteOptions& options);
 std::vector<std::string> write_dae(const Mesh& mesh, const std::filesystem::path& path, const WriteOptions& options);
 std::vector<std::string> write_3mf(const Mesh& mesh, const std::filesystem::path& path, const WriteOptions& options);
+std::vector<std::string> write_glb(const Mesh& mesh, const std::filesystem::path& path, const WriteOptions& options);
+std::vector<std::string> write_gltf(const Mesh& mesh, const std::filesystem::path& path, const WriteOptions& options);
+
+// Whether a glTF can be written as the mesh's own file with other positions, be that .glb or .gltf.
+bool is_own_gltf(const Mesh& mesh);
 
 // What a format can hold besides positions and triangles, as our writer writes it.
 struct FormatKeeps {

@@ -67,21 +67,13 @@ private:
     PolygonMesh mesh_;
     std::vector<std::vector<float>> texcoords_; // a set: u v a vertex of the file
     std::vector<double> normals_;               // x y z a vertex of the file
+    std::size_t targets_ = 0;                   // morph targets of the mesh that has most
     bool skinned_ = false, weighted_ = false;
 };
 
 void GltfReader::read_vertices(const GltfPiece& piece, const GltfPlacement& placement) {
-    const GltfRows positions = data_.attribute(layout_.primitive(data_, piece), "POSITION");
-    if (positions.columns != 3) data_.fail("a POSITION has not three coordinates; the file is damaged");
-    if (positions.size() != piece.count) data_.fail("a part has another number of vertices than it says");
-    for (std::size_t i = 0; i < piece.count; ++i) {
-        Eigen::Vector4d p(0, 0, 0, 1);
-        for (std::size_t c = 0; c < 3; ++c)
-            p[static_cast<Eigen::Index>(c)] =
-                positions.values[3 * i + c] + (placement.offsets.empty() ? 0 : placement.offsets[3 * i + c]);
-        const Eigen::Vector4d world = placement.matrix(i) * p;
-        std::copy_n(world.data(), 3, mesh_.coordinates.begin() + static_cast<std::ptrdiff_t>(3 * (piece.first + i)));
-    }
+    gltf_positions(data_, layout_, piece, placement, mesh_.coordinates);
+    targets_ = std::max(targets_, layout_.primitive(data_, piece).value("targets", json::array()).size());
     skinned_ |= placement.skinned;
     weighted_ |= !placement.offsets.empty();
     read_texcoords(piece);
@@ -205,6 +197,10 @@ void GltfReader::attach_corners() {
 }
 
 void GltfReader::add_notes() {
+    for (const auto& [list, noun] :
+         {std::pair("skins", "skin"), std::pair("animations", "animation"), std::pair("cameras", "camera")})
+        if (data_.count(list) > 0) mesh_.file.only_here.push_back(counted(data_.count(list), noun));
+    if (targets_ > 0) mesh_.file.only_here.push_back(counted(targets_, "morph target"));
     std::vector<std::string>& notes = mesh_.file.notes;
     if (layout_.passed_over > 0)
         notes.push_back(

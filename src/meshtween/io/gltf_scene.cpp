@@ -266,6 +266,7 @@ std::vector<GltfPart> gltf_parts(const GltfData& data) {
         part.mesh = data.number(node, "mesh");
         data.item("meshes", part.mesh);
         part.world = scene.world(index);
+        part.local.setIdentity();
         part.weights = scene.weights(node, part.mesh);
         if (node.contains("skin")) part.joints = scene.joints(data.number(node, "skin"));
         const std::vector<Matrix4d> instances = scene.instances(node);
@@ -274,7 +275,8 @@ std::vector<GltfPart> gltf_parts(const GltfData& data) {
         for (std::size_t i = 0; i < instances.size(); ++i) {
             GltfPart copy = part;
             copy.instance = static_cast<int>(i);
-            copy.world = part.world * instances[i];
+            copy.local = instances[i];
+            copy.world = part.world * copy.local;
             parts.push_back(std::move(copy));
         }
     }
@@ -326,6 +328,21 @@ GltfPlacement gltf_placement(const GltfData& data, const GltfLayout& layout, con
     result.matrices.reserve(piece.count);
     for (std::size_t i = 0; i < piece.count; ++i) result.matrices.push_back(blended(data, sets, part.joints, i));
     return result;
+}
+
+void gltf_positions(const GltfData& data, const GltfLayout& layout, const GltfPiece& piece,
+                    const GltfPlacement& placement, std::vector<double>& coordinates) {
+    const GltfRows positions = data.attribute(layout.primitive(data, piece), "POSITION");
+    if (positions.columns != 3) data.fail("a POSITION has not three coordinates; the file is damaged");
+    if (positions.size() != piece.count) data.fail("a part has another number of vertices than it says");
+    for (std::size_t i = 0; i < piece.count; ++i) {
+        Eigen::Vector4d p(0, 0, 0, 1);
+        for (std::size_t c = 0; c < 3; ++c)
+            p[static_cast<Eigen::Index>(c)] =
+                positions.values[3 * i + c] + (placement.offsets.empty() ? 0 : placement.offsets[3 * i + c]);
+        const Eigen::Vector4d world = placement.matrix(i) * p;
+        std::copy_n(world.data(), 3, coordinates.begin() + static_cast<std::ptrdiff_t>(3 * (piece.first + i)));
+    }
 }
 
 } // namespace meshtween

@@ -15,6 +15,7 @@ struct GltfPart {
     std::size_t node = 0, mesh = 0;
     int instance = -1;                   // of EXT_mesh_gpu_instancing; -1: the node itself
     Eigen::Matrix4d world;               // of the node, or of its instance
+    Eigen::Matrix4d local;               // of the instance below the node
     std::vector<Eigen::Matrix4d> joints; // in the rest pose: where each joint takes the vertices; empty without a skin
     std::vector<double> weights;         // of its morph targets by default; empty where all are 0
 };
@@ -52,5 +53,9 @@ struct GltfPlacement {
 };
 
 GltfPlacement gltf_placement(const GltfData& data, const GltfLayout& layout, const GltfPiece& piece);
+
+// Writes where the piece's vertices lie in the world to their places among all: x y z each.
+void gltf_positions(const GltfData& data, const GltfLayout& layout, const GltfPiece& piece,
+                    const GltfPlacement& placement, std::vector<double>& coordinates);
 
 } // namespace meshtween

@@ -26,11 +26,6 @@ struct Format {
     FormatKeeps keeps;
 };
 
-std::vector<std::string> write_glb(const Mesh& mesh, const fs::path& path, const WriteOptions&) {
-    write_whole(path, mesh_glb(mesh));
-    return {};
-}
-
 constexpr FormatKeeps obj_keeps{.polygons = true,
                                 .texcoords = true,
                                 .colors = true,
@@ -50,12 +45,13 @@ constexpr FormatKeeps usd_keeps{.polygons = true,
                                 .materials = true,
                                 .images = true};
 constexpr FormatKeeps threemf_keeps{};
-constexpr FormatKeeps gltf_keeps{.texcoords = true, .colors = true};
+constexpr FormatKeeps gltf_keeps{
+    .texcoords = true, .more_texcoords = true, .colors = true, .materials = true, .images = true};
 
 constexpr std::array formats{
     Format{".obj", read_obj, write_obj, obj_keeps},    Format{".ply", read_ply, write_ply, ply_keeps},
     Format{".stl", read_stl, write_stl, {}},           Format{".off", read_off, write_off, off_keeps},
-    Format{".glb", read_gltf, write_glb, gltf_keeps},  Format{".gltf", read_gltf, nullptr, gltf_keeps},
+    Format{".glb", read_gltf, write_glb, gltf_keeps},  Format{".gltf", read_gltf, write_gltf, gltf_keeps},
     Format{".vtk", read_vtk, write_vtk, vtk_keeps},    Format{".vtp", read_vtp, write_vtp, vtk_keeps},
     Format{".usda", nullptr, write_usda, usd_keeps},   Format{".fbx", read_assimp, nullptr, vtk_keeps},
     Format{".dae", read_assimp, write_dae, vtk_keeps}, Format{".3mf", read_assimp, write_3mf, threemf_keeps},
@@ -134,17 +130,23 @@ std::vector<std::string> write_mesh(const Mesh& mesh, const fs::path& path, cons
     return notes;
 }
 
-std::vector<std::string> left_behind(const Mesh& mesh, const fs::path& path) {
+std::vector<std::string> left_behind(const Mesh& mesh, const fs::path& path, bool of_morph) {
     const std::string extension = lower_extension(path);
-    if (is_rewritable(mesh, extension)) return {};
+    const bool gltf = extension == ".glb" || extension == ".gltf"; // one format in two wrappings
+    if (!of_morph && (is_rewritable(mesh, extension) || (gltf && is_own_gltf(mesh)))) return {};
+    std::vector<std::string> notes;
+    if (of_morph && extension != ".usda")
+        for (const std::string& note : mesh_glb_notes(mesh))
+            notes.push_back(fmt::format("{}: {}", path.string(), note));
     const Format* format = find_format(extension == ".html" ? ".glb" : extension);
-    if (format == nullptr) return {};
+    if (format == nullptr) return notes;
     const std::vector<std::string> lost = not_kept(mesh, format->keeps);
-    if (lost.empty()) return {};
+    if (lost.empty()) return notes;
     const Format* own = mesh.file ? find_format(mesh.file->format) : nullptr;
     const bool helps = own != nullptr && own->write != nullptr && own != format;
-    return {fmt::format("{}: left behind {}{}", path.string(), listed(lost),
-                        helps ? fmt::format("; write {} to keep them", own->extension) : "")};
+    notes.push_back(fmt::format("{}: left behind {}{}", path.string(), listed(lost),
+                                helps ? fmt::format("; write {} to keep them", own->extension) : ""));
+    return notes;
 }
 
 std::vector<std::string> readable_extensions() {

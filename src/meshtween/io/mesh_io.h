@@ -35,12 +35,13 @@ struct WriteOptions {
 // same. To another format goes what that can hold. Returns what was left behind and what else people should know, a
 // sentence each that begins with the file's name.
 // Writes beside `path`, then renames: a failure leaves nothing half-written. Doubles in text keep all their digits; STL
-// and GLB hold floats. Throws Error(argument) as check_writable, Error(file) where writing fails.
+// and GLB hold floats. A .gltf comes with a .bin of its name beside it. Throws Error(argument) as check_writable,
+// Error(file) where writing fails.
 std::vector<std::string> write_mesh(const Mesh& mesh, const std::filesystem::path& path,
                                     const WriteOptions& options = {});
 
 // What write_mesh would leave behind there, as a sentence; none where nothing is. Also for .glb and .html of a morph.
-std::vector<std::string> left_behind(const Mesh& mesh, const std::filesystem::path& path);
+std::vector<std::string> left_behind(const Mesh& mesh, const std::filesystem::path& path, bool of_morph = false);
 
 // Throws Error(argument) where write_mesh would not know how: so that nobody waits for a fit to hear it.
 void check_writable(const std::filesystem::path& path);
