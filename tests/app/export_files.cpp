@@ -6,6 +6,7 @@
 #include "meshtween/io/output.h"
 #include "meshtween/morph/keys.h"
 #include "support/twist.h"
+#include "textured_files.h"
 
 #include <fmt/format.h>
 
@@ -84,6 +85,7 @@ int main(int count, char** arguments) {
     const std::filesystem::path folder = arguments[1];
     std::filesystem::create_directories(folder);
     write_bars(arguments[2]);
+    write_textured(folder);
     const Mesh mesh = straight_bar();
     write_straight(mesh, arguments[2]);
     const Curve curve = twist_curve(mesh);

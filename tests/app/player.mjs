@@ -109,6 +109,17 @@ async function checked(name, checks) {
     await page.close();
 }
 
+// Textures are there, and parts of several materials are one mesh whose vertices seams do not repeat.
+async function checkTextures(page, name, textures) {
+    const shown = await page.evaluate(() => window.meshtween.then((m) => {
+        m.setU(0.5);
+        return { textures: m.textures(), vertices: m.vertexCount, triangles: m.triangleCount, all: m.vertices().every(Number.isFinite) };
+    }));
+    assert.deepEqual(shown, { textures, vertices: 1002, triangles: 2000, all: true });
+    await drawn(page);
+    await page.screenshot({ path: join(folder, `${name}.png`) });
+}
+
 try {
     await checked('morph', async (page) => {
         await checkKeys(page);
@@ -118,6 +129,8 @@ try {
     await checked('path', (page) => checkShapes(page, 'path', 1e-4)); // the tolerance of curves
     await checked('keys', (page) => checkShapes(page, 'keys', 1e-6));
     await checked('far', (page) => checkShapes(page, 'far', 1e-6));
+    await checked('sample_morph', (page) => checkTextures(page, 'sample_morph', 1));
+    await checked('materials', (page) => checkTextures(page, 'materials', 1));
 } finally {
     await browser.close();
 }

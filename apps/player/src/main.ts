@@ -1,5 +1,6 @@
 // The player of an exported page: the model and the options stand in the page itself, nothing is fetched.
 import './style.css';
+import type { MeshStandardMaterial } from 'three';
 import { advanced, type Clock } from './clock';
 import type { Ease } from './ease';
 import { bytesOf, loadModel, type Model } from './model';
@@ -16,9 +17,10 @@ export interface Hook {
     setU(u: number): void; // pauses
     u(): number;
     weights(u: number): number[]; // of the base and all targets
-    vertices(): Float64Array; // x, y, z each; those that seams repeat come after all others
+    vertices(): Float64Array; // x, y, z each
     vertexCount: number;
     triangleCount: number;
+    textures(): number; // parts of the model that show one
 }
 declare global {
     interface Window {
@@ -114,7 +116,7 @@ function run(model: Model, stage: Stage, options: Options): Hook {
     });
 
     show();
-    if (model.mesh.morphTargetInfluences && !matchMedia('(prefers-reduced-motion: reduce)').matches) set({ playing: true });
+    if (model.meshes[0]?.morphTargetInfluences && !matchMedia('(prefers-reduced-motion: reduce)').matches) set({ playing: true });
     return {
         setU: (u) => set({ playing: false, u }),
         u: () => clock.u,
@@ -122,6 +124,7 @@ function run(model: Model, stage: Stage, options: Options): Hook {
         vertices: () => model.vertices(),
         vertexCount: model.vertexCount,
         triangleCount: model.triangleCount,
+        textures: () => model.meshes.filter(({ material }) => (material as MeshStandardMaterial).map?.image).length,
     };
 }
 

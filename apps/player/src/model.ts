@@ -1,11 +1,11 @@
-// The page's GLB: its shapes, and the mesh that shows one of those between them.
+// The page's GLB: its shapes, and the meshes (one a material) that show one of those between them.
 import { Box3, Matrix4, Mesh, Vector3, type BufferAttribute, type Group, type Material } from 'three';
 import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
 import { spline } from './spline';
 
 export interface Model {
     scene: Group;
-    mesh: Mesh;
+    meshes: Mesh[];
     box: Box3; // holds all shapes, in the scene's coordinates
     outline: Float32Array; // x, y, z of some thousand points of all shapes: what a view should hold
     vertexCount: number;
@@ -25,17 +25,20 @@ export function bytesOf(base64: string): ArrayBuffer {
 export async function loadModel(glb: ArrayBuffer): Promise<Model> {
     const { scene } = await new GLTFLoader().parseAsync(glb, '');
     scene.updateMatrixWorld(true);
-    let found: Mesh | undefined;
-    const covers: Mesh[] = []; // a second look, which lies over the first as it fades in
+    const meshes: Mesh[] = [];
+    const covers: Mesh[] = []; // of a second look, which lies over the first as it fades in
     scene.traverse((object) => {
         if (!(object instanceof Mesh)) return;
-        if (found) covers.push(object);
-        else found = object;
+        const covering = object.userData['cover'] ?? object.parent?.userData['cover']; // the node is the mesh, or holds its parts
+        (covering ? covers : meshes).push(object);
     });
-    if (!found) throw new Error('the file holds no mesh');
-    const mesh = found;
-    mesh.frustumCulled = false; // its bounds are those of the first shape only
-    mesh.castShadow = mesh.receiveShadow = true;
+    const mesh = meshes[0];
+    if (!mesh) throw new Error('the file holds no mesh');
+    for (const part of meshes) {
+        part.frustumCulled = false; // its bounds are those of the first shape only
+        part.castShadow = part.receiveShadow = true;
+        if (mesh.morphTargetInfluences) part.morphTargetInfluences = mesh.morphTargetInfluences; // shared: moves alike
+    }
 
     for (const cover of covers) layOver(mesh, cover);
 
@@ -47,20 +50,20 @@ export async function loadModel(glb: ArrayBuffer): Promise<Model> {
     if (influences.length !== knots.length - degree - 2) throw new Error('the file does not say how its shapes are blended');
     return {
         scene,
-        mesh,
-        ...extentOf(mesh, toScene, weights),
-        vertexCount: mesh.geometry.getAttribute('position').count,
-        triangleCount: (mesh.geometry.index?.count ?? 0) / 3,
+        meshes,
+        ...extentOf(meshes, toScene, weights),
+        vertexCount: numberingOf(meshes).count,
+        triangleCount: meshes.reduce((sum, part) => sum + (part.geometry.index?.count ?? 0) / 3, 0),
         weights,
         // The base's weight is what the targets' leave of 1: its own.
         setU: (u) => weights(u).slice(1).forEach((weight, k) => (influences[k] = weight)),
-        vertices: () => verticesOf(mesh, toScene),
+        vertices: () => verticesOf(meshes, toScene),
     };
 }
 
 // Moves as the mesh does, and is drawn a little in front of it.
 function layOver(mesh: Mesh, cover: Mesh): void {
-    cover.morphTargetInfluences = mesh.morphTargetInfluences;
+    if (mesh.morphTargetInfluences) cover.morphTargetInfluences = mesh.morphTargetInfluences;
     cover.frustumCulled = false;
     cover.receiveShadow = true;
     const material = cover.material as Material;
@@ -68,31 +71,52 @@ function layOver(mesh: Mesh, cover: Mesh): void {
     material.polygonOffsetFactor = material.polygonOffsetUnits = -1;
 }
 
-function verticesOf(mesh: Mesh, toScene: Matrix4): Float64Array {
-    const count = mesh.geometry.getAttribute('position').count;
+// Which vertex of the model each of a mesh's is: the file tells where seams or materials repeat some.
+function numberingOf(meshes: Mesh[]): { count: number; vertex(part: number, i: number): number } {
+    const told = meshes.map((mesh) => mesh.geometry.attributes['_vertex']); // three.js keeps such names in small letters
+    let count = 0;
+    const firsts = meshes.map((mesh, part) => {
+        const first = count, numbers = told[part], size = mesh.geometry.getAttribute('position').count;
+        if (!numbers) count += size;
+        else for (let i = 0; i < size; ++i) count = Math.max(count, numbers.getX(i) + 1);
+        return first;
+    });
+    return { count, vertex: (part, i) => told[part]?.getX(i) ?? firsts[part]! + i };
+}
+
+function verticesOf(meshes: Mesh[], toScene: Matrix4): Float64Array {
+    const { count, vertex } = numberingOf(meshes);
     const result = new Float64Array(3 * count);
     const point = new Vector3();
-    for (let i = 0; i < count; ++i) mesh.getVertexPosition(i, point).applyMatrix4(toScene).toArray(result, 3 * i);
+    meshes.forEach((mesh, part) => {
+        for (let i = 0; i < mesh.geometry.getAttribute('position').count; ++i)
+            mesh.getVertexPosition(i, point).applyMatrix4(toScene).toArray(result, 3 * vertex(part, i));
+    });
     return result;
 }
 
 // The box around shapes all along the path, and points of them. The targets themselves lie beside it.
-function extentOf(mesh: Mesh, toScene: Matrix4, weights: (u: number) => number[]): Pick<Model, 'box' | 'outline'> {
-    const base = mesh.geometry.getAttribute('position');
-    const targets = (mesh.geometry.morphAttributes['position'] ?? []) as BufferAttribute[];
-    const looks = targets.length === 0 ? 1 : base.count > 300_000 ? 9 : 17;
-    const stride = Math.ceil((base.count * looks) / 20000);
+function extentOf(meshes: Mesh[], toScene: Matrix4, weights: (u: number) => number[]): Pick<Model, 'box' | 'outline'> {
+    const total = meshes.reduce((sum, mesh) => sum + mesh.geometry.getAttribute('position').count, 0);
+    const moves = meshes.some((mesh) => mesh.geometry.morphAttributes['position']?.length);
+    const looks = !moves ? 1 : total > 300_000 ? 9 : 17;
+    const stride = Math.ceil((total * looks) / 20000);
     const box = new Box3();
     const outline: number[] = [];
     const point = new Vector3(), offset = new Vector3();
+    let seen = 0;
     for (let look = 0; look < looks; ++look) {
         const shares = weights(look / Math.max(1, looks - 1)).slice(1);
-        const parts = targets.flatMap((target, k) => (shares[k]! > 0 ? [{ target, share: shares[k]! }] : []));
-        for (let i = 0; i < base.count; ++i) {
-            point.fromBufferAttribute(base, i);
-            for (const { target, share } of parts) point.addScaledVector(offset.fromBufferAttribute(target, i), share);
-            box.expandByPoint(point.applyMatrix4(toScene));
-            if ((look * base.count + i) % stride === 0) outline.push(point.x, point.y, point.z);
+        for (const mesh of meshes) {
+            const base = mesh.geometry.getAttribute('position');
+            const targets = (mesh.geometry.morphAttributes['position'] ?? []) as BufferAttribute[];
+            const parts = targets.flatMap((target, k) => (shares[k]! > 0 ? [{ target, share: shares[k]! }] : []));
+            for (let i = 0; i < base.count; ++i) {
+                point.fromBufferAttribute(base, i);
+                for (const { target, share } of parts) point.addScaledVector(offset.fromBufferAttribute(target, i), share);
+                box.expandByPoint(point.applyMatrix4(toScene));
+                if (seen++ % stride === 0) outline.push(point.x, point.y, point.z);
+            }
         }
     }
     return { box, outline: new Float32Array(outline) };

@@ -1,9 +1,10 @@
 // Camera, light and ground around a model, drawn only when something changed.
 import {
-    CircleGeometry, DirectionalLight, Group, HemisphereLight, Mesh, MeshBasicMaterial, NeutralToneMapping, PerspectiveCamera,
-    Scene, ShadowMaterial, Spherical, Vector3, VSMShadowMap, WebGLRenderer,
+    CircleGeometry, DirectionalLight, Group, HemisphereLight, Mesh, MeshBasicMaterial, MeshStandardMaterial,
+    NeutralToneMapping, PerspectiveCamera, PMREMGenerator, Scene, ShadowMaterial, Spherical, Vector3, VSMShadowMap, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import { RoomEnvironment } from 'three/examples/jsm/environments/RoomEnvironment.js';
 import type { Model } from './model';
 
 export interface Stage {
@@ -28,7 +29,8 @@ export function makeStage(canvas: HTMLCanvasElement, bar: HTMLElement, model: Mo
     root.scale.setScalar(scale);
     root.position.copy(centre).multiplyScalar(-scale);
     root.add(model.scene);
-    const wire = wireframeOf(model.mesh);
+    const wires = model.meshes.map(wireframeOf);
+    dress(model.meshes, renderer, scene);
     scene.add(root);
     const ground = addGround(scene, (-size.y * scale) / 2);
     const outline = pointsOf(model.outline).map((p) => p.sub(centre).multiplyScalar(scale));
@@ -89,7 +91,7 @@ export function makeStage(canvas: HTMLCanvasElement, bar: HTMLElement, model: Mo
             resetView();
         },
         setWireframe: (on) => {
-            wire.visible = on;
+            for (const wire of wires) wire.visible = on;
             redraw();
         },
     };
@@ -149,6 +151,17 @@ function addGround(scene: Scene, height: number): ShadowMaterial {
     ground.receiveShadow = true;
     scene.add(ground);
     return material;
+}
+
+// Textures stay sharp at a slant, and metal, which is black without a room around it, gets one.
+function dress(meshes: Mesh[], renderer: WebGLRenderer, scene: Scene): void {
+    const materials = meshes.map((mesh) => mesh.material).filter((material) => material instanceof MeshStandardMaterial);
+    for (const { map } of materials) if (map) map.anisotropy = renderer.capabilities.getMaxAnisotropy();
+    if (!materials.some((material) => material.metalness > 0.05)) return;
+    const maker = new PMREMGenerator(renderer);
+    scene.environment = maker.fromScene(new RoomEnvironment(), 0.04).texture;
+    scene.environmentIntensity = 0.6;
+    maker.dispose();
 }
 
 // The same mesh once more, as lines a little in front of the surface.

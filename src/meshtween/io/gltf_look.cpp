@@ -3,6 +3,7 @@
 
 #include "meshtween/core/error.h"
 #include "meshtween/io/gltf_data.h"
+#include "meshtween/io/image.h"
 #include "meshtween/io/output.h"
 
 #include <fmt/format.h>
@@ -38,11 +39,12 @@ Found found_picture(const TextureImage& picture) {
             return {{}, fmt::format("the texture is left white: {}", error.what())};
         }
     }
-    if (picture_mime(found.bytes).empty())
-        return {
-            {},
-            fmt::format("the texture '{}' is left white: it is no PNG, JPEG or WebP, which is what glTF shows", name)};
-    return found;
+    if (!picture_mime(found.bytes).empty()) return found;
+    try {
+        return {png_bytes(decoded_image(found.bytes, name)), {}}; // a BMP or TGA
+    } catch (const Error&) {
+        return {{}, fmt::format("the texture '{}' is left white: it is no PNG, JPEG, WebP, BMP or TGA", name)};
+    }
 }
 
 std::vector<std::string> append_pictures(Glb& glb, const std::vector<TextureImage>& pictures) {

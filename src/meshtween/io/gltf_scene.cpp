@@ -248,6 +248,12 @@ std::size_t vertices_of(const GltfData& data, const json& primitive) {
     return count;
 }
 
+// Our own morphs whose look fades show the same mesh twice.
+bool is_second_look(const json& node) {
+    const json extras = node.value("extras", json());
+    return extras.is_object() && extras.value("cover", json()) == true;
+}
+
 } // namespace
 
 bool has_triangles(const GltfData& data, const json& primitive) {
@@ -260,7 +266,7 @@ std::vector<GltfPart> gltf_parts(const GltfData& data) {
     std::vector<GltfPart> parts;
     for (const std::size_t index : scene.visited()) {
         const json& node = data.item("nodes", index);
-        if (!node.contains("mesh")) continue;
+        if (!node.contains("mesh") || is_second_look(node)) continue;
         GltfPart part;
         part.node = index;
         part.mesh = data.number(node, "mesh");
