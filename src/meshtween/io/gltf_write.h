@@ -13,16 +13,16 @@ namespace meshtween {
 // What a player blends: the mesh's own positions are the base, each shape is a morph target.
 struct GltfMorph {
     std::span<const Points> shapes; // K shapes of the mesh's connectivity, n x 3 each
-    std::vector<std::string> names; // K
-    std::vector<float> times;       // T seconds, ascending from 0
-    std::vector<float> weights;     // T x K, a row a time
+    std::vector<std::string> names = {}; // K
+    std::vector<float> times = {};       // T seconds, ascending from 0
+    std::vector<float> weights = {};     // T x K, a row a time
     // The B-spline that the weights are of, with K + 1 weights, the base's first: for players, in the extras.
     int degree = 0;
-    std::vector<double> knots;
+    std::vector<double> knots = {};
     // Shapes that lie beside the path have no normals of their own: those of shape k (0 the base) are sum_s
     // normal_fit(k, s) of the normals of on_path(s). Empty: the shapes' own.
-    Eigen::MatrixXd normal_fit;
-    std::function<Points(std::size_t)> on_path;
+    Eigen::MatrixXd normal_fit = {};
+    std::function<Points(std::size_t)> on_path = {};
 };
 
 // Where positions are written relative to: the origin, or the centre of a mesh that lies far from it.
