@@ -118,9 +118,9 @@ test('one side alone, files in the wrong order, and markers off their model', as
 
   await t.test('where nothing tells, the person does', async () => {
     await put(page, [])
-    await drop(page, '.panel', [{ name: 'far.csv', text: table([['a', [500, 0, 0]], ['b', [0, 500, 0]]]) }])
+    await drop(page, '.panel', [{ name: 'mixed.csv', text: table([['a', [1, 0, 0]], ['b', [-1, 0, 0]], ['c', there([0, 0, 1])]]) }])
     await page.getByRole('dialog').getByRole('button', { name: /The source/ }).click()
-    await page.waitForFunction(() => window.studio.store.document.markers.length === 2)
+    await page.waitForFunction(() => window.studio.store.document.markers.length === 3)
     assert.ok((await markers(page)).every((m) => m.source && !m.target))
   })
 
