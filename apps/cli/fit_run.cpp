@@ -5,7 +5,9 @@
 #include "meshtween/fit/markers.h"
 #include "meshtween/fit/quality.h"
 #include "meshtween/fit/refined_fit.h"
+#include "meshtween/io/formats.h"
 #include "meshtween/io/mesh_io.h"
+#include "meshtween/io/text.h"
 
 #include <fmt/format.h>
 
@@ -161,6 +163,9 @@ Fitted run_fit(const Mesh& source, const Mesh& target, const MarkerPairs& marker
                          ? "refine: the source is fine enough as it is"
                          : fmt::format("refine: {} vertices became {} in {} rounds", source.positions.rows(),
                                        done.source.positions.rows(), done.added.size()));
+        const FormatKeeps refined{.texcoords = true, .colors = true};
+        if (const auto lost = not_kept(source, refined); !done.added.empty() && !lost.empty())
+            console.note(fmt::format("refine: the finer mesh leaves behind {}", listed(lost)));
     }
     fitted.mesh.positions = result.positions;
     fitted.report["seconds"] = seconds;

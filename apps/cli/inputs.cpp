@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 
 using namespace meshtween;
 
@@ -120,11 +119,13 @@ std::vector<Output> load_outputs(const std::vector<std::string>& names) {
 }
 
 void add_write_flags(CLI::App& verb, WriteOptions& options) {
-    static const std::map<std::string, Textures> ways{{"copy", Textures::copy}, {"refer", Textures::refer}};
-    verb.add_option(
-            "--textures", options.textures,
+    verb.add_option_function<std::string>(
+            "--textures",
+            [&options](const std::string& way) {
+                options.textures = way == "refer" ? Textures::refer : Textures::copy;
+            },
             "Material libraries and pictures that a mesh names: copy them beside it, or refer to where they are")
-        ->transform(CLI::CheckedTransformer(ways))
+        ->check(CLI::IsMember({"copy", "refer"}))
         ->default_str("copy");
 }
 
