@@ -262,7 +262,8 @@ void cover(Glb& glb, const Glb& other, std::span<const double> share) {
         node["extras"]["cover"] = true;
         merge.append("nodes", std::move(node));
     }
-    for (const json& node : merge.list("scenes")[0]["nodes"])
+    const json scenes = merge.list("scenes");
+    for (const json& node : scenes[0]["nodes"])
         glb.root["scenes"][0]["nodes"].push_back(node.get<int>() + nodes);
     for (const json& animation : merge.list("animations"))
         for (json channel : animation["channels"]) { // both files' samplers are the same
