@@ -71,6 +71,21 @@ struct GltfMaker {
         root["scenes"] = nlohmann::json::array({{{"nodes", {0}}}});
     }
 
+    // Says of each bufferView what it is for, as validators like it.
+    void set_targets() {
+        const auto set = [&](const nlohmann::json& accessor, int target) {
+            const nlohmann::json& view = root["accessors"][accessor.get<std::size_t>()]["bufferView"];
+            root["bufferViews"][view.get<std::size_t>()]["target"] = target;
+        };
+        for (const nlohmann::json& mesh : root["meshes"])
+            for (const nlohmann::json& part : mesh["primitives"]) {
+                for (const nlohmann::json& accessor : part["attributes"]) set(accessor, 34962);
+                for (const nlohmann::json& target : part.value("targets", nlohmann::json::array()))
+                    for (const nlohmann::json& accessor : target) set(accessor, 34962);
+                set(part["indices"], 34963);
+            }
+    }
+
     nlohmann::json& primitive() { return root["meshes"][0]["primitives"][0]; }
 
     // The GLB; unpadded: its chunks stand one right behind the other.

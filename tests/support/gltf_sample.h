@@ -34,7 +34,7 @@ inline GltfMaker gltf_sample(const Mesh& mesh, const std::string& png) {
         put(more, std::array{v, u});
         const float second = static_cast<float>(std::clamp(2 * u - 0.5, 0.0, 1.0));
         put(weights, std::array{1 - second, second, 0.0F, 0.0F});
-        joints.insert(joints.end(), {0, 1, 0, 0});
+        joints.insert(joints.end(), {0, static_cast<std::uint8_t>(second > 0 ? 1 : 0), 0, 0});
         put(lift, std::array{0.0, 0.2 * std::sin(std::numbers::pi * u), 0.0});
     }
     for (Eigen::Index k = 0; k < mesh.triangles.size(); ++k)
@@ -71,6 +71,7 @@ inline GltfMaker gltf_sample(const Mesh& mesh, const std::string& png) {
     maker.root["animations"] = nlohmann::json::array(
         {{{"samplers", nlohmann::json::array({{{"input", times}, {"output", weight}}})},
           {"channels", nlohmann::json::array({{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}})}}});
+    maker.set_targets();
     return maker;
 }
 

@@ -135,7 +135,7 @@ std::vector<std::string> left_behind(const Mesh& mesh, const fs::path& path, boo
     const bool gltf = extension == ".glb" || extension == ".gltf"; // one format in two wrappings
     if (!of_morph && (is_rewritable(mesh, extension) || (gltf && is_own_gltf(mesh)))) return {};
     std::vector<std::string> notes;
-    if (of_morph)
+    if (of_morph && extension != ".usda")
         for (const std::string& note : mesh_glb_notes(mesh))
             notes.push_back(fmt::format("{}: {}", path.string(), note));
     const Format* format = find_format(extension == ".html" ? ".glb" : extension);
