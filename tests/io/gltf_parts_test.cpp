@@ -9,6 +9,8 @@
 #include "support/scratch.h"
 #include "support/shapes.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 
 namespace meshtween {
