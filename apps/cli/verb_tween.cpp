@@ -25,9 +25,9 @@ void add_tween(CLI::App& app, const Common& common) {
                      "The shapes in their order, two or more, with the same vertices and faces in the same order")
         ->required()
         ->expected(-2);
-    verb->add_option(
-            "-o,--output", a->outputs,
-            "x.glb, x.usda, x.html, x.png, x.apng, x.svg, frame_####.obj, or x.obj with --at; may be given several times")
+    verb->add_option("-o,--output", a->outputs,
+                     "x.glb, x.usda, x.html, x.png, x.apng, x.svg, frame_####.obj, or x.obj with --at; may be given "
+                     "several times")
         ->required()
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

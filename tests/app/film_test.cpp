@@ -32,7 +32,8 @@ TEST(Film, ShowsMotionFromOneCamera) {
     const Film film(ball, {ball.positions, there.positions}, 200);
     Mesh away = ball;
     away.positions.col(0).array() += 1000;
-    const Image first = film.frame(ball.positions), last = film.frame(there.positions), empty = film.frame(away.positions);
+    const Image first = film.frame(ball.positions), last = film.frame(there.positions),
+                empty = film.frame(away.positions);
     EXPECT_EQ(first.width, last.width);
     EXPECT_EQ(first.height, last.height);
     const auto [from, to] = columns_of(first, empty);

@@ -263,7 +263,7 @@ TEST_F(BadFiles, NoFileAFolderAnUnknownFormat) {
         EXPECT_NE(message.find(".obj .ply .stl .off .glb .gltf .vtk .vtp .usda"), std::string::npos) << message;
         message_of(ErrorKind::argument, [&] { write_mesh(unit_cube(), scratch.path(name)); });
     }
-    EXPECT_NE(message_of(ErrorKind::argument, [&] { write_mesh(unit_cube(), scratch.path("a.gltf")); }).find(".glb"),
+    EXPECT_NE(message_of(ErrorKind::argument, [&] { write_mesh(unit_cube(), scratch.path("a.fbx")); }).find(".glb"),
               std::string::npos);
     EXPECT_NE(
         message_of(ErrorKind::file, [&] { write_mesh(unit_cube(), scratch.path("none/a.obj")); }).find("no folder"),

@@ -128,8 +128,9 @@ TEST_F(GltfRewritten, WhatOthersUseIsLeftToThem) {
 }
 
 TEST_F(GltfRewritten, SparseQuantisedAndInterleavedPositions) {
+    const Mesh cube = unit_cube();
     std::vector<std::int16_t> places;
-    for (const double x : unit_cube().positions.reshaped<Eigen::RowMajor>())
+    for (const double x : cube.positions.reshaped<Eigen::RowMajor>())
         places.push_back(static_cast<std::int16_t>(x * 32767));
     maker.primitive()["attributes"]["POSITION"] = maker.add(places, "VEC3", true);
     maker.root["extensionsUsed"] = maker.root["extensionsRequired"] = {"KHR_mesh_quantization"};
@@ -145,7 +146,7 @@ TEST_F(GltfRewritten, SparseQuantisedAndInterleavedPositions) {
 
     std::vector<float> mixed; // place and texture coordinate in turn
     for (Eigen::Index i = 0; i < 8; ++i) {
-        for (const double x : unit_cube().positions.row(i)) mixed.push_back(static_cast<float>(x));
+        for (const double x : cube.positions.row(i)) mixed.push_back(static_cast<float>(x));
         mixed.insert(mixed.end(), {0.25F, 0.75F});
     }
     const int all = maker.add(mixed, "SCALAR");

@@ -129,7 +129,8 @@ TEST_F(GltfShape, ABufferOfPicturesMayBeMissing) {
 
 TEST_F(GltfShape, QuantisedPositions) {
     std::vector<std::int16_t> places;
-    for (const double x : unit_cube().positions.reshaped<Eigen::RowMajor>())
+    const Mesh cube = unit_cube();
+    for (const double x : cube.positions.reshaped<Eigen::RowMajor>())
         places.push_back(static_cast<std::int16_t>(x * 32767));
     maker.primitive()["attributes"]["POSITION"] = maker.add(places, "VEC3", true);
     EXPECT_EQ(read().positions, unit_cube().positions);

@@ -115,7 +115,10 @@ TEST(GltfWrite, FarFromTheOriginTheShapeKeepsItsDigits) {
     mesh.positions.rowwise() += far;
     std::vector<Points> shapes{Points(mesh.positions * 1.0)};
     shapes[0].col(2).array() += 0.123456789;
-    const ParsedGlb glb = parse_glb(mesh_glb(mesh, GltfMorph{.shapes = shapes, .names = {"b"}, .times = {0, 1}, .weights = {0, 1}}));
+    const ParsedGlb glb = parse_glb(mesh_glb(
+        mesh,
+        GltfMorph{
+            .shapes = shapes, .names = {"b"}, .times = {0, 1}, .weights = {0, 1}, .degree = 1, .knots = {0, 0, 1, 1}}));
     const auto& t = glb.root["nodes"][0]["translation"];
     const Point origin(t[0].get<double>(), t[1].get<double>(), t[2].get<double>());
     const auto base = accessor<float>(glb, primitive(glb)["attributes"]["POSITION"]);
@@ -167,7 +170,7 @@ TEST(GltfWrite, RefusesWhatGltfCannotHold) {
     mesh.triangles.resize(0, 3);
     EXPECT_EQ(refused(mesh), "\"mesh\" has no faces, so there is no glTF to write");
     const std::vector<Points> shapes{Points::Zero(3, 3)};
-    EXPECT_EQ(refused(tetrahedron(), {.shapes = shapes, .names = {"b"}}),
+    EXPECT_EQ(refused(tetrahedron(), {.shapes = shapes, .names = {"b"}, .degree = 1, .knots = {0, 0, 1, 1}}),
               "shape \"b\" has 3 vertices, but the mesh has 4");
 }
 

@@ -1,5 +1,6 @@
-// One small surface as VTK 9 writes it: a pyramid of a quad and four triangles and a line beside it, with colours, normals,
-// texture coordinates, data of points (one is no number, one is in bits) and cells, and Slicer's mark of its coordinates.
+// One small surface as VTK 9 writes it: a pyramid of a quad and four triangles and a line beside it, with colours,
+// normals, texture coordinates, data of points (one is no number, one is in bits) and cells, and Slicer's mark of its
+// coordinates.
 #pragma once
 
 namespace meshtween {
@@ -140,7 +141,8 @@ constexpr const char* vtp_appended_raw_base64 =
     "ZT4K";
 
 // compressed, in base64, big-endian, headers of 64 bits
-constexpr const char* vtp_inline_big_endian = R"file(<VTKFile type="PolyData" version="1.0" byte_order="BigEndian" header_type="UInt64" compressor="vtkZLibDataCompressor">
+constexpr const char* vtp_inline_big_endian =
+    R"file(<VTKFile type="PolyData" version="1.0" byte_order="BigEndian" header_type="UInt64" compressor="vtkZLibDataCompressor">
 <PolyData>
 <FieldData>
 <Array type="String" Name="SPACE" NumberOfTuples="1" format="binary">AAAAAAAAAAEAAAAAAACAAAAAAAAAAAAEAAAAAAAAAAw=eF7zCQhmAAACygDw</Array></FieldData>
@@ -164,7 +166,8 @@ constexpr const char* vtp_inline_big_endian = R"file(<VTKFile type="PolyData" ve
 )file";
 
 // text
-constexpr const char* vtp_text = R"file(<VTKFile type="PolyData" version="0.1" byte_order="LittleEndian" header_type="UInt32">
+constexpr const char* vtp_text =
+    R"file(<VTKFile type="PolyData" version="0.1" byte_order="LittleEndian" header_type="UInt32">
 <PolyData>
 <FieldData>
 <Array type="String" Name="SPACE" NumberOfTuples="1" format="ascii">76 80 83 0</Array></FieldData>

@@ -263,8 +263,7 @@ void cover(Glb& glb, const Glb& other, std::span<const double> share) {
         merge.append("nodes", std::move(node));
     }
     const json scenes = merge.list("scenes");
-    for (const json& node : scenes[0]["nodes"])
-        glb.root["scenes"][0]["nodes"].push_back(node.get<int>() + nodes);
+    for (const json& node : scenes[0]["nodes"]) glb.root["scenes"][0]["nodes"].push_back(node.get<int>() + nodes);
     for (const json& animation : merge.list("animations"))
         for (json channel : animation["channels"]) { // both files' samplers are the same
             channel["target"]["node"] = channel["target"]["node"].get<int>() + nodes;

@@ -140,8 +140,7 @@ void write_plot(const Playable& playable, const std::filesystem::path& path, con
     PathQuality quality = playable.quality;
     if (quality.frames.empty())
         quality = path_quality(
-            playable.mesh, [&](double u) { return playable.path.at(u); }, {.keys = playable.path.keys},
-            progress);
+            playable.mesh, [&](double u) { return playable.path.at(u); }, {.keys = playable.path.keys}, progress);
     written.cancelled = quality.cancelled;
     if (!written.cancelled) write_whole(path, path_plot({{playable.play.title, quality}}));
 }

@@ -23,8 +23,8 @@ struct Mesh {
     Texcoords texcoords;          // empty where the file has none
     Triangles texcoord_triangles; // m x 3 indices into texcoords, a corner each (seams need them); empty with texcoords
     Colors colors;                // a row a vertex; empty where the file has none
-    // What the file holds besides: polygons, groups, materials, its own bytes. It describes the triangles and attributes
-    // above, not the positions; who changes those drops it. Null where no file gave the mesh.
+    // What the file holds besides: polygons, groups, materials, its own bytes. It describes the triangles and
+    // attributes above, not the positions; who changes those drops it. Null where no file gave the mesh.
     std::shared_ptr<const MeshFile> file = {};
 };
 

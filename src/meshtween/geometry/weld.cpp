@@ -214,7 +214,7 @@ std::vector<SeamEdge> paired_edges(const Triangles& triangles, const std::vector
 // Lines, points and vertices of no face that hang together with no triangle belong to the surface in their place, where
 // there is one.
 void join_loose(const Triangles& triangles, const std::vector<int>& place, const std::vector<char>& shared,
-                  Classes& classes) {
+                Classes& classes) {
     std::vector<char> proper(place.size(), 0), loose(place.size(), 1);
     const auto each = [&](bool of_proper, const auto& visit) {
         for (Eigen::Index t = 0; t < triangles.rows(); ++t) {

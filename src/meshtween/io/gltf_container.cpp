@@ -114,7 +114,8 @@ void GltfData::split_container(std::string_view bytes) {
     try {
         root_ = json::parse(text.begin(), text.end());
     } catch (const json::parse_error& error) {
-        fail(fmt::format("its JSON cannot be read beyond byte {}; the file is damaged or of another format", error.byte));
+        fail(fmt::format("its JSON cannot be read beyond byte {}; the file is damaged or of another format",
+                         error.byte));
     } catch (const json::exception&) {
         fail("its JSON holds a number that is too large; the file is damaged or of another format");
     }

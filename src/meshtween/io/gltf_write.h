@@ -12,7 +12,7 @@ namespace meshtween {
 
 // What a player blends: the mesh's own positions are the base, each shape is a morph target.
 struct GltfMorph {
-    std::span<const Points> shapes; // K shapes of the mesh's connectivity, n x 3 each
+    std::span<const Points> shapes;      // K shapes of the mesh's connectivity, n x 3 each
     std::vector<std::string> names = {}; // K
     std::vector<float> times = {};       // T seconds, ascending from 0
     std::vector<float> weights = {};     // T x K, a row a time

@@ -136,7 +136,7 @@ double mean_distance(const Points& places, const Surface& surface) {
 std::string wrong_signs(const Points& places, const Surface& surface, const std::string& mesh,
                         const std::string& system, std::string_view what) {
     constexpr Eigen::Index most = 16, least = 3; // each is held against all of the surface
-    constexpr double off = 1e-3, clearly = 0.1; // of the diagonal; of the distance as it is
+    constexpr double off = 1e-3, clearly = 0.1;  // of the diagonal; of the distance as it is
     if (places.rows() < least) return {};
     const Points some = places.topRows(std::min(places.rows(), most));
     const double given = mean_distance(some, surface);
