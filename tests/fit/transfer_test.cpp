@@ -83,6 +83,20 @@ TEST(Transfer, NoTriangleIsDrawnAcrossASeam) {
         }
 }
 
+TEST(Transfer, AGiverWhoseNumberingIsCutGivesTheSame) {
+    const Mesh giver = textured_tube(40, 10), receiver = textured_tube(29, 8);
+    Mesh cut = giver; // a vertex of its own for each texture coordinate, as files of glTF have it
+    cut.triangles = giver.texcoord_triangles;
+    cut.positions.resize(giver.texcoords.rows(), 3);
+    for (Eigen::Index t = 0; t < giver.triangles.rows(); ++t)
+        for (int k = 0; k < 3; ++k)
+            cut.positions.row(giver.texcoord_triangles(t, k)) = giver.positions.row(giver.triangles(t, k));
+    const Mesh whole = with_attributes(receiver, giver, places_on(receiver, giver)),
+               got = with_attributes(receiver, cut, places_on(receiver, cut));
+    EXPECT_EQ(got.texcoords, whole.texcoords);
+    EXPECT_EQ(got.texcoord_triangles, whole.texcoord_triangles);
+}
+
 TEST(Transfer, PointsGoThereAndBack) {
     const Mesh coarse = sphere(4);
     Mesh fitted = coarse, target = sphere(5);

@@ -16,7 +16,9 @@
 namespace meshtween::studio {
 namespace {
 
-constexpr CurveOptions played{1e-3, 17}; // of paths that are looked at; files get the library's own defaults
+constexpr CurveOptions played{1e-3, 17}; // of paths that are looked at
+// Of files, as the command line makes them: nine tenths of the tolerance are the curve's, the rest is for playing it.
+constexpr CurveOptions written_curve{0.9 * CurveOptions{}.tolerance, CurveOptions{}.max_nodes};
 
 void start(Jobs& jobs, const std::string& kind, Jobs::Work work) {
     if (!jobs.start(kind, std::move(work)))
@@ -191,7 +193,7 @@ void Session::start_export(const Json& request) {
         if (!plays.empty()) {
             const Mesh& source = open.source->mesh;
             Playable playable;
-            playable.path = path_between(source, *fitted, wanted, {}, part_of(progress, 0, 0.7)).curve;
+            playable.path = path_between(source, *fitted, wanted, written_curve, part_of(progress, 0, 0.7)).curve;
             if (playable.path.cancelled) return nullptr;
             playable.mesh = source;
             playable.mesh.positions = playable.path.nodes.front();

@@ -103,6 +103,9 @@ Triangles texcoord_corners(const Mesh& mesh) {
     const Weld found = seams(mesh);
     if (!found.any()) return mesh.texcoord_triangles;
     Mesh whole = welded(mesh, found);
+    whole.texcoords.resize(3 * mesh.triangles.rows(), 2); // one a corner
+    for (Eigen::Index c = 0; c < whole.texcoords.rows(); ++c)
+        whole.texcoords.row(c) = mesh.texcoords.row(mesh.texcoord_triangles(c / 3, c % 3));
     share_texcoords(whole);
     return whole.texcoord_triangles;
 }
