@@ -87,7 +87,7 @@ void transfer_values(const Arguments& a, const Sides& sides, const std::vector<S
 }
 
 void transfer_points(const Arguments& a, const Sides& sides, Console& console) {
-    Landmarks given = read_landmarks(a.points, sides.giver.rest, marker_reading(a.markers_system));
+    LandmarkList given = read_landmarks(a.points, sides.giver.rest, marker_reading(a.markers_system));
     console.warn("", given.notes);
     // Names say which are gone; without names their order does, so they stay.
     if (holds_names(a.points_out)) std::erase_if(given.points, [](const Landmark& point) { return !point.position; });

@@ -18,7 +18,7 @@ class LandmarkFiles : public testing::Test {
 protected:
     LandmarkFiles() : mesh(unit_cube()) {}
 
-    Landmarks read(std::string_view name, std::string_view contents) const {
+    LandmarkList read(std::string_view name, std::string_view contents) const {
         return read_landmarks(scratch.file(name, contents), mesh);
     }
     // "a 1 0 0.5; b -" of a list.
@@ -172,7 +172,7 @@ TEST_F(LandmarkFiles, WhatIsWrittenIsRead) {
         ASSERT_EQ(back.pairs.size(), 2u) << end;
         EXPECT_EQ(back.pairs[1].source, Point(1, 1, 0)) << end;
         EXPECT_EQ(back.pairs[0].target, Point(0, 0, 1.0 / 3)) << end;
-        const Landmarks list = read_landmarks(a, mesh);
+        const LandmarkList list = read_landmarks(a, mesh);
         ASSERT_EQ(list.points.size(), 4u) << end;
         EXPECT_FALSE(list.points[1].position) << end;
     }

@@ -124,7 +124,7 @@ ImportedMarkers one_side(const fs::path& file, const MarkerFile& raw, std::optio
         result.ask_side = true;
         return result;
     }
-    const Landmarks read = read_landmarks(file, (*side == Side::source ? source : target).mesh);
+    const LandmarkList read = read_landmarks(file, (*side == Side::source ? source : target).mesh);
     result.notes = read.notes;
     take_rest(read.points, *side, {}, result);
     if (!given)

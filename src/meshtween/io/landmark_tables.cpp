@@ -2,7 +2,7 @@
 // of software, Hystrix 2015), of which Landmark Editor's dta is one; morphologika (O'Higgins and Jones, Tools for
 // statistical shape analysis, 2006); Amira's and Avizo's landmark sets.
 #include "meshtween/io/marker_files.h"
-#include "meshtween/io/sheet.h"
+#include "meshtween/io/cells.h"
 #include "meshtween/io/text.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // Which columns of a table of markers hold what: by the header's names, in any order, else by their number.
 #pragma once
 
-#include "meshtween/io/sheet.h"
+#include "meshtween/io/cells.h"
 #include "meshtween/io/space.h"
 
 #include <array>

@@ -4,7 +4,7 @@
 #include "meshtween/io/marker_files.h"
 #include "meshtween/io/mesh_file.h"
 #include "meshtween/io/output.h"
-#include "meshtween/io/sheet.h"
+#include "meshtween/io/cells.h"
 #include "meshtween/io/text.h"
 
 #include <fmt/format.h>

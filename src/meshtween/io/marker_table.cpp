@@ -3,7 +3,7 @@
 #include "meshtween/io/marker_files.h"
 #include "meshtween/io/marker_write.h"
 #include "meshtween/io/output.h"
-#include "meshtween/io/sheet.h"
+#include "meshtween/io/cells.h"
 #include "meshtween/io/text.h"
 #include "meshtween/io/text_out.h"
 
@@ -14,17 +14,17 @@
 namespace meshtween {
 namespace {
 
-MarkerColumns columns_of(const Sheet& sheet, const std::filesystem::path& path) {
+MarkerColumns columns_of(const CellTable& sheet, const std::filesystem::path& path) {
     if (!sheet.header.empty())
         if (auto named = columns_by_name(sheet.header)) return *named;
-    const SheetRow& first = sheet.rows[0];
+    const CellRow& first = sheet.rows[0];
     if (auto counted = columns_by_count(first.cells.size(), !is_number(first.cells[0]))) return *counted;
     bad_file(path, fmt::format("line {}: a row of {} cells is none of name,sx,sy,sz,tx,ty,tz or name,x,y,z or x,y,z or "
                                "two vertex indices or one; a header that names the columns x, y and z would do",
                                first.line, first.cells.size()));
 }
 
-MarkerPlace place_of(const SheetRow& row, const PlaceColumns& columns, const Text& text) {
+MarkerPlace place_of(const CellRow& row, const PlaceColumns& columns, const Text& text) {
     if (columns.indexed) {
         const std::string& cell = row.cells[columns.index];
         if (is_missing(cell)) return {};
@@ -39,19 +39,19 @@ MarkerPlace place_of(const SheetRow& row, const PlaceColumns& columns, const Tex
     return point;
 }
 
-std::string where(const SheetRow& row) {
+std::string where(const CellRow& row) {
     return fmt::format("line {}", row.line);
 }
 
 // A row is a specimen, as in tables for statistics: the landmarks lie beside each other.
-void add_specimen(MarkerFile& file, const SheetRow& row, const MarkerColumns& columns, const Text& text) {
+void add_specimen(MarkerFile& file, const CellRow& row, const MarkerColumns& columns, const Text& text) {
     Specimen specimen{columns.name ? row.cells[*columns.name] : "", {}};
     for (const PlaceColumns& place : columns.places)
         specimen.rows.push_back({place.name, where(row), {place_of(row, place, text)}});
     file.specimens.push_back(std::move(specimen));
 }
 
-void add_row(MarkerFile& file, const SheetRow& row, const MarkerColumns& columns, const Text& text) {
+void add_row(MarkerFile& file, const CellRow& row, const MarkerColumns& columns, const Text& text) {
     MarkerRow marker{columns.name ? row.cells[*columns.name] : "", where(row), {}};
     const bool undefined = columns.defined && *columns.defined < row.cells.size() && row.cells[*columns.defined] == "0";
     for (const PlaceColumns& place : columns.places)
@@ -97,7 +97,7 @@ std::vector<std::string> cells_of(std::string_view line) {
 }
 
 MarkerFile read_marker_table(std::string_view bytes, const std::filesystem::path& path) {
-    const Sheet sheet = read_sheet(bytes, path);
+    const CellTable sheet = read_cells(bytes, path);
     MarkerFile file;
     if (sheet.rows.empty()) return file;
     const MarkerColumns columns = columns_of(sheet, path);
@@ -105,7 +105,7 @@ MarkerFile read_marker_table(std::string_view bytes, const std::filesystem::path
     file.space = columns.space;
     file.notes = sheet.notes;
     file.notes.insert(file.notes.end(), columns.notes.begin(), columns.notes.end());
-    for (SheetRow row : sheet.rows) {
+    for (CellRow row : sheet.rows) {
         const Text text({}, path, row.line + 1); // messages name the row's line
         while (row.cells.size() > columns.width && row.cells.back().empty()) row.cells.pop_back();
         if (row.cells.size() < columns.width || row.cells.size() > most)
@@ -130,13 +130,13 @@ void write_marker_pairs(const std::vector<MarkerPair>& pairs, const std::filesys
 Points read_points(const std::filesystem::path& path) {
     const std::string bytes = plain_text(read_whole(path));
     if (bytes.empty()) bad_file(path, "the file is empty");
-    const Sheet sheet = read_sheet(bytes, path);
+    const CellTable sheet = read_cells(bytes, path);
     std::optional<MarkerColumns> columns;
     if (!sheet.header.empty()) columns = columns_by_name(sheet.header);
     if (!columns || columns->places.size() != 1) columns = columns_by_count(3, false);
     Points points(std::ssize(sheet.rows), 3);
     for (Eigen::Index i = 0; i < points.rows(); ++i) {
-        const SheetRow& row = sheet.rows[static_cast<std::size_t>(i)];
+        const CellRow& row = sheet.rows[static_cast<std::size_t>(i)];
         const Text text({}, path, row.line + 1);
         if (row.cells.size() < columns->width || (row.cells.size() > 3 && sheet.header.empty()))
             text.fail(fmt::format("a row x,y,z has three cells, this has {}", row.cells.size()));

@@ -248,10 +248,10 @@ MarkerPairs read_marker_pairs(const fs::path& source_path, const fs::path& targe
     return result;
 }
 
-Landmarks read_landmarks(const fs::path& path, const Mesh& mesh, const MarkerReading& reading) {
+LandmarkList read_landmarks(const fs::path& path, const Mesh& mesh, const MarkerReading& reading) {
     const MarkerFile file = read_marker_file(path);
     if (file.sides == 2) bad_file(path, "holds both sides of pairs; a list of points of one side is needed here");
-    Landmarks result;
+    LandmarkList result;
     add_notes(result.notes, file, path);
     std::optional<std::size_t> taken;
     std::array<MarkerSide, 1> sides{MarkerSide{path, {}, file.space, &mesh}};

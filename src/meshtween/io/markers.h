@@ -56,13 +56,13 @@ struct Landmark {
     std::optional<Point> position;
 };
 
-struct Landmarks {
+struct LandmarkList {
     std::vector<Landmark> points;              // in the file's order, missing ones too
     std::vector<std::string> notes, far_names; // as those of pairs
 };
 
 // A file of one side on or near a mesh, in any of the formats. Throws as read_marker_pairs.
-Landmarks read_landmarks(const std::filesystem::path& path, const Mesh& mesh, const MarkerReading& reading = {});
+LandmarkList read_landmarks(const std::filesystem::path& path, const Mesh& mesh, const MarkerReading& reading = {});
 
 // Rows x,y,z under an optional header, n x 3: a known correspondence, a row a vertex.
 Points read_points(const std::filesystem::path& path);

@@ -4,7 +4,7 @@
 #include "meshtween/io/marker_distance.h"
 #include "meshtween/io/marker_sides.h"
 #include "meshtween/io/output.h"
-#include "meshtween/io/sheet.h"
+#include "meshtween/io/cells.h"
 #include "meshtween/io/text.h"
 
 #include <fmt/format.h>
@@ -28,7 +28,7 @@ struct Columns {
     Space space = Space::unknown;
 };
 
-Columns columns_of(const Sheet& sheet) {
+Columns columns_of(const CellTable& sheet) {
     Columns columns;
     const auto role = std::find(sheet.header.begin(), sheet.header.end(), "role");
     if (role == sheet.header.end()) return columns;
@@ -45,11 +45,11 @@ Columns columns_of(const Sheet& sheet) {
 
 RotationMarkers read_rotation_markers(const std::filesystem::path& path, const Mesh& mesh,
                                       const MarkerReading& reading) {
-    const Sheet sheet = read_sheet(plain_text(read_whole(path)), path);
+    const CellTable sheet = read_cells(plain_text(read_whole(path)), path);
     const Columns columns = columns_of(sheet);
     std::array<MarkerSide, 1> sides{MarkerSide{path, {}, columns.space, &mesh}};
     std::vector<bool> turns;
-    for (const SheetRow& row : sheet.rows) {
+    for (const CellRow& row : sheet.rows) {
         const Text text({}, path, row.line + 1); // messages name the row's line
         if (row.cells.size() < columns.width || (sheet.header.empty() && row.cells.size() != columns.width))
             text.fail(fmt::format("a row of {} cells; name,x,y,z,role has five", row.cells.size()));

@@ -1,7 +1,7 @@
 #include "meshtween/io/table.h"
 
 #include "meshtween/io/output.h"
-#include "meshtween/io/sheet.h"
+#include "meshtween/io/cells.h"
 #include "meshtween/io/text.h"
 #include "meshtween/io/text_out.h"
 
@@ -9,7 +9,7 @@
 
 namespace meshtween {
 Table read_table(const std::filesystem::path& path) {
-    const Sheet sheet = read_sheet(plain_text(read_whole(path)), path);
+    const CellTable sheet = read_cells(plain_text(read_whole(path)), path);
     if (sheet.rows.empty()) bad_file(path, "holds no rows of numbers");
     Table table;
     const std::size_t columns = sheet.rows[0].cells.size();
@@ -26,7 +26,7 @@ Table read_table(const std::filesystem::path& path) {
     }
     table.values.resize(std::ssize(sheet.rows), static_cast<Eigen::Index>(columns - first));
     for (Eigen::Index i = 0; i < table.values.rows(); ++i) {
-        const SheetRow& row = sheet.rows[static_cast<std::size_t>(i)];
+        const CellRow& row = sheet.rows[static_cast<std::size_t>(i)];
         const Text text({}, path, row.line + 1); // messages name the row's line
         if (row.cells.size() != columns)
             text.fail(fmt::format("{} cells, where the first row has {}", row.cells.size(), columns));

@@ -16,7 +16,7 @@ struct Table {
     Eigen::MatrixXd values;         // rows x columns
 };
 
-// Any table that read_sheet reads. A first column headed "vertex" or "index" must count from 0 and is taken away, one
+// Any table that read_cells reads. A first column headed "vertex" or "index" must count from 0 and is taken away, one
 // without a heading holds names and is taken away too. Throws Error(file) with the line: rows of
 // unequal length, a cell that is no finite number, no rows at all.
 Table read_table(const std::filesystem::path& path);

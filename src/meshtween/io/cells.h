@@ -9,14 +9,14 @@
 
 namespace meshtween {
 
-struct SheetRow {
+struct CellRow {
     std::vector<std::string> cells;
     long line = 0; // of the file
 };
 
-struct Sheet {
+struct CellTable {
     std::vector<std::string> header; // as many as the rows have cells, or empty where the file has none
-    std::vector<SheetRow> rows;
+    std::vector<CellRow> rows;
     std::vector<std::string> notes; // what was decided, a sentence each
 };
 
@@ -25,7 +25,7 @@ struct Sheet {
 // lines are passed over. Where decimal commas stand they become points. A header is a first row without numbers; R's,
 // which lacks the cell over the rows' names or leaves it empty; pandas's 0,1,2; or a comment that names x, y and z.
 // `bytes` are those that plain_text gives.
-Sheet read_sheet(std::string_view bytes, const std::filesystem::path& path);
+CellTable read_cells(std::string_view bytes, const std::filesystem::path& path);
 
 // The cells of a line, cut at the separator; at ' ', blanks and tabs in any number count as one. Quotes keep a cell
 // together.

@@ -1,4 +1,4 @@
-#include "meshtween/io/sheet.h"
+#include "meshtween/io/cells.h"
 
 #include "meshtween/io/marker_files.h"
 #include "meshtween/io/text.h"
@@ -97,20 +97,20 @@ bool counts_columns(const std::vector<std::string>& cells, bool after_empty) {
     return true;
 }
 
-bool has_fractions(const std::vector<SheetRow>& rows, std::size_t from) {
+bool has_fractions(const std::vector<CellRow>& rows, std::size_t from) {
     for (std::size_t i = from; i < rows.size(); ++i)
         for (const std::string& cell : rows[i].cells)
             if (is_number(cell) && cell.find_first_of(".,eE") != std::string::npos) return true;
     return false;
 }
 
-void convert_decimal_commas(std::vector<SheetRow>& rows) {
+void convert_decimal_commas(std::vector<CellRow>& rows) {
     const auto any = [&](const auto& holds) {
         return std::any_of(rows.begin(), rows.end(),
-                           [&](const SheetRow& row) { return std::any_of(row.cells.begin(), row.cells.end(), holds); });
+                           [&](const CellRow& row) { return std::any_of(row.cells.begin(), row.cells.end(), holds); });
     };
     if (any([](const std::string& cell) { return is_number(cell) && cell.find('.') != std::string::npos; })) return;
-    for (SheetRow& row : rows)
+    for (CellRow& row : rows)
         for (std::string& cell : row.cells)
             if (has_decimal_comma(cell)) cell[cell.find(',')] = '.';
 }
@@ -127,7 +127,7 @@ std::size_t numbers_in(const std::vector<std::string>& cells) {
 }
 
 // Takes the header off the rows, or finds it in the comment before them.
-void find_header(Sheet& sheet, const std::optional<std::vector<std::string>>& comment) {
+void find_header(CellTable& sheet, const std::optional<std::vector<std::string>>& comment) {
     if (sheet.rows.empty()) return;
     const std::vector<std::string>& first = sheet.rows[0].cells;
     const bool counted = counts_columns(first, true);
@@ -191,11 +191,11 @@ std::vector<std::string> cells_of(std::string_view line, char separator) {
     return cells;
 }
 
-Sheet read_sheet(std::string_view bytes, const std::filesystem::path& path) {
+CellTable read_cells(std::string_view bytes, const std::filesystem::path& path) {
     std::optional<char> said;
     const std::vector<Line> lines = lines_of(bytes, path, said);
     const char separator = said.value_or(separator_of(lines));
-    Sheet sheet;
+    CellTable sheet;
     std::optional<std::vector<std::string>> comment; // the last before the first row
     std::size_t width = 0;
     bool headed = false;
