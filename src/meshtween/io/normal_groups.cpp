@@ -3,6 +3,7 @@
 #include "meshtween/core/parallel.h"
 #include "meshtween/geometry/measure.h"
 #include "meshtween/io/mesh_file.h"
+#include "meshtween/io/seams.h"
 
 #include <algorithm>
 #include <numeric>
@@ -27,8 +28,10 @@ std::vector<int> places(const Points& positions) {
     return place;
 }
 
-NormalGroups group_of_each_vertex(const Triangles& triangles, Eigen::Index vertices) {
-    NormalGroups result{triangles, std::vector<int>(static_cast<std::size_t>(vertices))};
+NormalGroups group_of_each_vertex(const Mesh& mesh) {
+    Weld one = seams(mesh);
+    if (one.any()) return {std::move(one.triangles), std::move(one.first)};
+    NormalGroups result{mesh.triangles, std::vector<int>(static_cast<std::size_t>(mesh.positions.rows()))};
     std::iota(result.vertices.begin(), result.vertices.end(), 0);
     return result;
 }
@@ -68,7 +71,7 @@ NormalGroups normal_groups(const Points& positions, const Triangles& vertices, c
 NormalGroups normal_groups(const Mesh& mesh) {
     const MeshFile* file = mesh.file.get();
     if (file == nullptr || file->normals.rows() == 0 || file->cut.rows() != mesh.triangles.rows())
-        return group_of_each_vertex(mesh.triangles, mesh.positions.rows());
+        return group_of_each_vertex(mesh);
     Points normals = Points::Zero(mesh.triangles.size(), 3);
     for (Eigen::Index k = 0; k < normals.rows(); ++k) {
         const auto corner = static_cast<std::size_t>(file->cut.data()[k]);

@@ -14,7 +14,8 @@ struct NormalGroups {
 };
 
 // Corners in one place whose normals in the file are the same share one, also across vertices that only a jump of the
-// texture coordinates separates. Where the file has no normals each vertex has one.
+// texture coordinates separates. Where the file has no normals each vertex of the
+// surface has one, smooth across seams.
 NormalGroups normal_groups(const Mesh& mesh);
 
 // As above for corners at `vertices` (m x 3) with these normals, a row a corner of the triangles each; a row of zeros:
