@@ -123,12 +123,13 @@ std::string likely_remedy(const Points& places, const Surface& own, const NamedM
     return "see whether they belong to this model, in this place";
 }
 
-// Mean distance of the places, of the diagonal.
-double mean_distance(const Points& places, const Surface& surface) {
+// Root mean square distance of the places, of the diagonal.
+double rms_distance(const Points& places, const Surface& surface) {
     std::vector<double> each(static_cast<std::size_t>(places.rows()));
     parallel_for(
         places.rows(), [&](Eigen::Index i) { each[static_cast<std::size_t>(i)] = surface.distance(places.row(i)); }, 4);
-    return std::accumulate(each.begin(), each.end(), 0.0) / static_cast<double>(each.size());
+    return std::sqrt(std::inner_product(each.begin(), each.end(), each.begin(), 0.0) /
+                     static_cast<double>(each.size()));
 }
 
 // On a shape that is nearly the same from behind, wrong signs move no marker far. They still show: with x and y negated
@@ -136,19 +137,21 @@ double mean_distance(const Points& places, const Surface& surface) {
 std::string wrong_signs(const Points& places, const Surface& surface, const std::string& mesh,
                         const std::string& system, std::string_view what) {
     constexpr Eigen::Index most = 16, least = 3; // each is held against all of the surface
-    constexpr double off = 1e-3, clearly = 0.1;  // of the diagonal; of the distance as it is
+    constexpr double off = 1e-3;                 // of the diagonal: what facets and hands do
+    constexpr double clearly = 1.0 / 3;          // of the distance as it is
     if (places.rows() < least) return {};
     const Points some = places.topRows(std::min(places.rows(), most));
-    const double given = mean_distance(some, surface);
+    const double given = rms_distance(some, surface);
     if (given < off) return {};
     const Points turned = some * Eigen::Vector3d(-1, -1, 1).asDiagonal();
-    const double negated = mean_distance(turned, surface);
+    const double negated = rms_distance(turned, surface);
     if (negated > clearly * given) return {};
-    return fmt::format("the {} lie further from the {} than they would with x and y negated, {:.2g} % of its diagonal "
-                       "in the mean and not {:.2g} %: one is in LPS coordinates and the other in RAS, it seems; negate "
-                       "x and y in the file{}",
-                       what, mesh, 100 * given, 100 * negated,
-                       system.empty() ? "" : fmt::format(", or give --markers-system {}", system));
+    return fmt::format(
+        "the {} lie further from the {} than they would with x and y negated, {:.2g} % of its diagonal "
+        "(root mean square) and not {:.2g} %: one is in LPS coordinates and the other in RAS, it seems; negate "
+        "x and y in the file{}",
+        what, mesh, 100 * given, 100 * negated,
+        system.empty() ? "" : fmt::format(", or give --markers-system {}", system));
 }
 
 } // namespace
