@@ -4,6 +4,7 @@
 
 #include "meshtween/core/parallel.h"
 #include "meshtween/fit/facing.h"
+#include "meshtween/fit/renumber.h"
 #include "meshtween/geometry/measure.h"
 
 #include <Eigen/Geometry>
@@ -194,13 +195,16 @@ Points lifted(const Points& positions, const Triangles& triangles, const Topolog
     return result;
 }
 
-Points lifted(const Mesh& fitted, const Mesh& target) {
+Points lifted(const Mesh& fitted_mesh, const Mesh& target_mesh) {
+    // Sums run in the order of places, so that how files number their vertices changes nothing.
+    const Renumbered fitted = renumbered(fitted_mesh.positions, fitted_mesh.triangles),
+                     target = renumbered(target_mesh.positions, target_mesh.triangles);
     const Point centre = target.positions.colwise().mean();
     const double size = diagonal(target.positions);
     const Points x = (fitted.positions.rowwise() - centre) / size;
     const FitTarget surface = fit_target((target.positions.rowwise() - centre) / size, target.triangles);
     const Points y = lifted(x, fitted.triangles, topology(x.rows(), fitted.triangles), surface);
-    return (y * size).rowwise() + centre;
+    return as_before(fitted.vertex, (y * size).rowwise() + centre);
 }
 
 } // namespace meshtween
