@@ -37,7 +37,7 @@ struct Neighbours {
 };
 
 Neighbours around(double x, int size) {
-    if (!std::isfinite(x)) return {};
+    if (!(std::abs(x) < 1e12)) return {}; // no number, or one whose pixel rounding hides
     const double down = std::floor(x);
     const auto first = static_cast<int>(down - std::floor(down / size) * size) % size;
     return {first, (first + 1) % size, static_cast<float>(x - down)};

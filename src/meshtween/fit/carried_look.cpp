@@ -59,9 +59,9 @@ std::vector<double> shown(const Correspondence& map) {
 }
 
 // Colours that vary as little as they can where nothing is shown. Parts of which nothing is shown become plain.
-VertexColors spread(const Mesh& mesh, VertexColors colors, const std::vector<double>& share) {
+VertexColors spread(const Triangles& triangles, VertexColors colors, const std::vector<double>& share) {
     if (std::ranges::all_of(share, [](double s) { return s > 0; })) return colors;
-    SparseMatrix system = graph_laplacian(topology(mesh.positions.rows(), mesh.triangles).neighbours);
+    SparseMatrix system = graph_laplacian(topology(colors.rows(), triangles).neighbours);
     constexpr double held_hard = 1e6, held_softly = 1e-6;
     for (Eigen::Index i = 0; i < colors.rows(); ++i) {
         const bool seen = share[idx(i)] > 0;
@@ -87,6 +87,7 @@ struct Carrying {
     const Mesh &receiver, &giver;
     const Appearance &own, &look;
     const ClosestPointIndex& surface; // the giver's
+    const Weld& seams;                // the receiver's
     double diagonal;
     Points normals;            // of the receiver's vertices
     std::vector<char> border;  // of the giver's vertices
@@ -139,7 +140,10 @@ VertexColors vertex_colors(const Carrying& c, const std::vector<SurfacePoint>& p
     parallel_for(colors.rows(), [&](std::ptrdiff_t i) {
         colors.row(i) = color_at(c.look, places[idx(i)]).transpose().cast<double>();
     });
-    if (!c.own.any()) return spread(c.receiver, std::move(colors), c.share);
+    if (!c.own.any()) {
+        if (!c.seams.any()) return spread(c.receiver.triangles, std::move(colors), c.share);
+        return c.seams.expanded(c.seams.reduced(spread(c.seams.by_first(), std::move(colors), c.share)));
+    }
     const std::vector<SurfacePoint> corners = corners_of(c.receiver);
     parallel_for(colors.rows(), [&](std::ptrdiff_t i) {
         if (corners[idx(i)].triangle < 0) return;
@@ -227,14 +231,19 @@ CarriedLook carried_look(const Mesh& receiver, const Mesh& giver, const std::str
     keep_going(progress, 0, "finding places");
     const Comparison both(receiver, giver);
     const Correspondence map = correspondence(both);
+    const Weld& giver_seams = both.target_seams; // a cut in the numbering is no border
+    std::vector<char> border =
+        topology(giver.positions.rows(), giver_seams.any() ? giver_seams.by_first() : giver.triangles).on_boundary;
+    giver_seams.share(border);
     Carrying c{receiver,
                giver,
                own,
                look,
                both.on_target,
+               both.fitted_seams,
                both.diagonal,
-               vertex_normals(receiver.positions, receiver.triangles),
-               topology(giver.positions.rows(), giver.triangles).on_boundary,
+               vertex_normals(receiver.positions, receiver.triangles, both.fitted_seams),
+               std::move(border),
                shown(map),
                {}};
     c.colors = vertex_colors(c, map.places);

@@ -36,6 +36,14 @@ bool is_picture(const fs::path& path) {
     return std::find(known.begin(), known.end(), extension) != known.end();
 }
 
+// A model from elsewhere must not carry off what it likes.
+bool is_library(const fs::path& path) {
+    const std::string extension = path.extension().string();
+    return extension.size() == 4 && std::equal(extension.begin(), extension.end(), ".mtl", [](char a, char b) {
+               return std::tolower(static_cast<unsigned char>(a)) == b;
+           });
+}
+
 bool leads_out(const fs::path& relative) {
     return *relative.lexically_normal().begin() == "..";
 }
@@ -133,8 +141,13 @@ std::string carry_picture(const Move& move, std::string_view name) {
 }
 
 std::string carry_library(const Move& move, std::string_view name) {
-    return carry(move, name,
-                 [&](const fs::path& found, const fs::path& copy) { return library_for(move, found, copy); });
+    return carry(move, name, [&](const fs::path& found, const fs::path& copy) {
+        if (!is_library(found))
+            throw Error(ErrorKind::file, fmt::format("{}: it is no material library by its name; it is "
+                                                     "not copied beside the mesh",
+                                                     found.string()));
+        return library_for(move, found, copy);
+    });
 }
 
 std::string carry_image(const Move& move, const TextureImage& image, std::size_t number) {

@@ -111,8 +111,13 @@ void GltfData::split_container(std::string_view bytes) {
             if (at + 8 > bytes.size() || word_at(bytes, at + 4) != bin) at = (at + 3) / 4 * 4;
         }
     }
+    constexpr int deepest = 256; // copies of what is nested deeper would use up the stack
+    const auto not_too_deep = [&](int depth, json::parse_event_t, json&) {
+        if (depth > deepest) fail("its JSON is nested too deeply; the file is damaged");
+        return true;
+    };
     try {
-        root_ = json::parse(text.begin(), text.end());
+        root_ = json::parse(text.begin(), text.end(), not_too_deep);
     } catch (const json::parse_error& error) {
         fail(fmt::format("its JSON cannot be read beyond byte {}; the file is damaged or of another format",
                          error.byte));

@@ -1,5 +1,6 @@
 // .glb and .gltf on the disk: the mesh's own file with new positions where it was one, else a file made from the mesh.
 #include "meshtween/core/error.h"
+#include "meshtween/io/companions.h"
 #include "meshtween/io/formats.h"
 #include "meshtween/io/gltf_build.h"
 #include "meshtween/io/gltf_data.h"
@@ -17,9 +18,25 @@ namespace fs = std::filesystem;
 
 using nlohmann::json;
 
-GltfRewrite file_of(const Mesh& mesh) {
-    if (is_own_gltf(mesh)) return rewritten_gltf(mesh);
-    return {mesh_gltf(mesh, {}, "mesh"), mesh_glb_notes(mesh)};
+struct GltfFile {
+    GltfRewrite file;
+    bool own = false; // the mesh's own file with new positions
+};
+
+GltfFile file_of(const Mesh& mesh) {
+    std::string why;
+    if (is_own_gltf(mesh)) try {
+            return {rewritten_gltf(mesh), true};
+        } catch (const Error& error) { // parts that the shape did not need
+            why = error.what();
+        } catch (const json::exception&) {
+            why = "parts of the template's file are damaged";
+        }
+    GltfFile result{{mesh_gltf(mesh, {}, "mesh"), mesh_glb_notes(mesh)}, false};
+    if (!why.empty())
+        result.file.notes.push_back(fmt::format(
+            "it is written anew, without the template's nodes, skins, morph targets and animations: {}", why));
+    return result;
 }
 
 // The file that an image of the JSON names beside the mesh's own; empty where it is inside.
@@ -73,12 +90,12 @@ void place_pictures(const Mesh& mesh, const fs::path& path, Textures textures, G
             image["uri"] = as_uri(fs::proximate(fs::absolute(picture), folder).generic_string());
             continue;
         }
-        const fs::path copy = folder / picture.filename();
         image["uri"] = as_uri(picture.filename().string());
-        if (!fs::exists(copy)) fs::copy_file(picture, copy, error);
-        if (error || !fs::exists(copy))
-            file.notes.push_back(fmt::format("the texture {} could not be copied beside it: {}", picture.string(),
-                                             error ? error.message() : "it is not there"));
+        try {
+            image["uri"] = as_uri(place_beside(folder, picture.filename().string(), read_whole(picture)));
+        } catch (const Error& missing) {
+            file.notes.push_back(fmt::format("a texture could not be copied beside it: {}", missing.what()));
+        }
     }
 }
 
@@ -94,15 +111,15 @@ bool is_own_gltf(const Mesh& mesh) {
 }
 
 std::vector<std::string> write_glb(const Mesh& mesh, const fs::path& path, const WriteOptions&) {
-    GltfRewrite file = file_of(mesh);
-    if (is_own_gltf(mesh)) embed_pictures(mesh, file);
+    auto [file, own] = file_of(mesh);
+    if (own) embed_pictures(mesh, file);
     write_whole(path, packed(std::move(file.glb)));
     return told(path, std::move(file.notes));
 }
 
 std::vector<std::string> write_gltf(const Mesh& mesh, const fs::path& path, const WriteOptions& options) {
-    GltfRewrite file = file_of(mesh);
-    if (is_own_gltf(mesh)) place_pictures(mesh, path, options.textures, file);
+    auto [file, own] = file_of(mesh);
+    if (own) place_pictures(mesh, path, options.textures, file);
     const fs::path bin = fs::path(path).replace_extension(".bin");
     file.glb.bin.resize((file.glb.bin.size() + 3) / 4 * 4, '\0');
     write_whole(bin, file.glb.bin);

@@ -101,8 +101,9 @@ void merge_buffers(Glb& glb, const GltfData& data) {
 void decode_primitives(Glb& glb, const GltfData& data) {
     for (std::size_t m = 0; m < data.count("meshes"); ++m) {
         const json& mesh = data.item("meshes", m);
-        for (std::size_t p = 0; p < mesh.value("primitives", json::array()).size(); ++p) {
-            const json& primitive = mesh["primitives"][p];
+        const auto primitives = mesh.find("primitives");
+        for (std::size_t p = 0; primitives != mesh.end() && p < primitives->size(); ++p) {
+            const json& primitive = (*primitives)[p];
             const json extensions = primitive.value("extensions", json::object());
             if (!extensions.contains("KHR_draco_mesh_compression")) continue;
             for (const auto& [name, accessor] : primitive.at("attributes").items())

@@ -1,8 +1,8 @@
 // Landmark files of geometric morphometrics, which hold one specimen or several: tps and NTSYS (Rohlf, The tps series
 // of software, Hystrix 2015), of which Landmark Editor's dta is one; morphologika (O'Higgins and Jones, Tools for
 // statistical shape analysis, 2006); Amira's and Avizo's landmark sets.
-#include "meshtween/io/marker_files.h"
 #include "meshtween/io/cells.h"
+#include "meshtween/io/marker_files.h"
 #include "meshtween/io/text.h"
 
 #include <fmt/format.h>
@@ -147,6 +147,8 @@ struct NtsHeader {
 NtsHeader nts_header(const Text& text, const std::vector<std::string>& words) {
     if (words.size() < 4 || words[0] != "1")
         text.fail("should be the matrix's line, such as 1 2L 36 1 9999 DIM=3; this is no NTSYS or Landmark file");
+    if (words[1].empty() || words[2].empty())
+        text.fail("says no numbers of specimens and coordinates; the file is damaged");
     NtsHeader header;
     const auto without_letter = [](std::string word) {
         if (!word.empty() && std::isalpha(static_cast<unsigned char>(word.back())) != 0) word.pop_back();

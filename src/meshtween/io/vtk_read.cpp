@@ -135,10 +135,14 @@ std::vector<double> VtkScanner::connectivity(std::string_view what, std::vector<
         const std::string_view offsets_type = next_word();
         rest_of_line();
         numbers(offsets_type, cells, fmt::format("the offsets of {}", what), &offsets);
+        if (offsets.size() != cells)
+            throw VtkDamage{fmt::format("the offsets of {} are no numbers; the file is damaged", what)};
         if (upper_case(next_word()) != "CONNECTIVITY") throw VtkDamage{"CONNECTIVITY is missing; the file is damaged"};
         const std::string_view type = next_word();
         rest_of_line();
         numbers(type, total, fmt::format("the corners of {}", what), &list);
+        if (list.size() != total)
+            throw VtkDamage{fmt::format("the corners of {} are no numbers; the file is damaged", what)};
         for (std::size_t i = 1; i < offsets.size(); ++i) {
             if (!(offsets[i] >= offsets[i - 1]) || offsets[0] != 0 || offsets[i] > static_cast<double>(total))
                 throw VtkDamage{
@@ -200,6 +204,9 @@ void VtkScanner::finish_cells() {
                                     grid_ends_.size(), grid_types_.size())};
     std::uint64_t begin = 0;
     for (std::size_t i = 0; i < grid_ends_.size(); ++i) {
+        if (!(grid_types_[i] >= 0 && grid_types_[i] <= 255))
+            throw VtkDamage{
+                fmt::format("cell {} is of type {}, which does not exist; the file is damaged", i, grid_types_[i])};
         surface_.add(static_cast<int>(grid_types_[i]), cell_of(grid_corners_, begin, grid_ends_[i]));
         begin = grid_ends_[i];
     }

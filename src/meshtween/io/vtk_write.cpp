@@ -3,6 +3,7 @@
 #include "meshtween/geometry/measure.h"
 #include "meshtween/io/formats.h"
 #include "meshtween/io/output.h"
+#include "meshtween/io/seams.h"
 #include "meshtween/io/space.h"
 #include "meshtween/io/vtk_legacy.h"
 
@@ -97,7 +98,7 @@ void write_new(const Mesh& mesh, std::ostream& stream) {
     if (mesh.colors.rows() > 0) write_colors(mesh.colors, stream);
     if (normals)
         stream << "NORMALS Normals float\n"
-               << big_endian(vertex_normals(mesh.positions, mesh.triangles), VtkType::float32) << '\n';
+               << big_endian(vertex_normals(mesh.positions, mesh.triangles, seams(mesh)), VtkType::float32) << '\n';
     if (texcoords.rows() > 0)
         stream << "TEXTURE_COORDINATES TCoords 2 float\n" << big_endian(texcoords, VtkType::float32) << '\n';
 }

@@ -3,6 +3,7 @@
 #include "meshtween/geometry/measure.h"
 #include "meshtween/io/formats.h"
 #include "meshtween/io/output.h"
+#include "meshtween/io/seams.h"
 #include "meshtween/io/space.h"
 #include "meshtween/io/vtp.h"
 
@@ -153,7 +154,7 @@ void write_point_data(const Mesh& mesh, std::ostream& stream) {
         const Eigen::Index channels = (mesh.colors.col(3).array() == 1).all() ? 3 : 4;
         out.array("RGB", "UInt8", (mesh.colors.leftCols(channels).cwiseMax(0).cwiseMin(1) * 255).eval());
     }
-    if (normals) out.array("Normals", "Float32", vertex_normals(mesh.positions, mesh.triangles));
+    if (normals) out.array("Normals", "Float32", vertex_normals(mesh.positions, mesh.triangles, seams(mesh)));
     if (texcoords.rows() > 0) out.array("TCoords", "Float32", texcoords);
     stream << "</PointData>\n";
 }
