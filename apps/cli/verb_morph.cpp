@@ -144,6 +144,9 @@ void add_morph(CLI::App& app, const Common& common) {
         const auto start = std::chrono::steady_clock::now();
         Console console(common.quiet);
         Json report = new_report("morph");
+        if (a->path.loop && a->look.appearance == "both")
+            throw Error(ErrorKind::argument, "--appearance both does not come back to the first look as --loop does; "
+                                             "leave one of them out (GLB and HTML go back and forth without --loop)");
         if (a->template_mesh.empty())
             morph_two(*a, common.seed, console, report);
         else

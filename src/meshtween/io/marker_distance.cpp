@@ -22,15 +22,20 @@ constexpr double far_away = 0.05, elsewhere = 0.25; // of the diagonal
 // A mesh's surface by some of its triangles, spread over all of it. Enough to tell 5 % of the diagonal, and quick.
 class Surface {
 public:
-    explicit Surface(const Mesh& mesh) : mesh_(mesh), diagonal_(meshtween::diagonal(mesh.positions)) {
+    explicit Surface(const Mesh& mesh) : mesh_(mesh) {
         constexpr Eigen::Index most = 20000;
         const Eigen::Index count = mesh.triangles.rows();
         auto step = static_cast<Eigen::Index>(0.618 * static_cast<double>(count)) + 1;
         while (std::gcd(step, count) != 1) ++step; // so that all are met, neighbours long after each other
         for (Eigen::Index i = 0; i < std::min(count, most); ++i)
             triangles_.push_back(static_cast<Eigen::Index>(i * step % count));
-        low_ = mesh.positions.colwise().minCoeff();
-        high_ = mesh.positions.colwise().maxCoeff();
+        low_.setConstant(std::numeric_limits<double>::infinity());
+        high_ = -low_;
+        for (const int v : mesh.triangles.reshaped()) { // vertices of no face may lie anywhere
+            low_ = low_.cwiseMin(mesh.positions.row(v));
+            high_ = high_.cwiseMax(mesh.positions.row(v));
+        }
+        diagonal_ = (high_ - low_).norm();
     }
 
     // Whether the point is within 5 % of the diagonal; most answers come after a few triangles.
@@ -57,7 +62,7 @@ private:
     }
 
     const Mesh& mesh_;
-    double diagonal_;
+    double diagonal_ = 0; // of the vertices of faces
     std::vector<Eigen::Index> triangles_;
     Point low_, high_;
 };
@@ -133,25 +138,23 @@ double rms_distance(const Points& places, const Surface& surface) {
 }
 
 // On a shape that is nearly the same from behind, wrong signs move no marker far. They still show: with x and y negated
-// all lie on the surface, as they do not now.
-std::string wrong_signs(const Points& places, const Surface& surface, const std::string& mesh,
-                        const std::string& system, std::string_view what) {
+// all lie on the surface, as they do not now. Root mean square distances, of the diagonal.
+struct Signs {
+    double given = 0, negated = 0;
+    bool wrong = false;
+};
+
+Signs signs_of(const Points& places, const Surface& surface) {
     constexpr Eigen::Index most = 16, least = 3; // each is held against all of the surface
     constexpr double off = 1e-3;                 // of the diagonal: what facets and hands do
     constexpr double clearly = 1.0 / 3;          // of the distance as it is
     if (places.rows() < least) return {};
     const Points some = places.topRows(std::min(places.rows(), most));
-    const double given = rms_distance(some, surface);
-    if (given < off) return {};
-    const Points turned = some * Eigen::Vector3d(-1, -1, 1).asDiagonal();
-    const double negated = rms_distance(turned, surface);
-    if (negated > clearly * given) return {};
-    return fmt::format(
-        "the {} lie further from the {} than they would with x and y negated, {:.2g} % of its diagonal "
-        "(root mean square) and not {:.2g} %: one is in LPS coordinates and the other in RAS, it seems; negate "
-        "x and y in the file{}",
-        what, mesh, 100 * given, 100 * negated,
-        system.empty() ? "" : fmt::format(", or give --markers-system {}", system));
+    Signs signs{rms_distance(some, surface), 0, false};
+    if (signs.given < off) return signs;
+    signs.negated = rms_distance(some * Eigen::Vector3d(-1, -1, 1).asDiagonal(), surface);
+    signs.wrong = signs.negated <= clearly * signs.given;
+    return signs;
 }
 
 } // namespace
@@ -173,7 +176,13 @@ MarkerDistances marker_distances(const Points& places, const std::vector<std::st
     }
     const std::size_t count = result.far_names.size();
     if (count == 0) {
-        result.note = wrong_signs(places, surface, own.name, system, what);
+        if (const Signs signs = signs_of(places, surface); signs.wrong)
+            result.note = fmt::format(
+                "the {} lie further from the {} than they would with x and y negated, {:.2g} % of its diagonal (root "
+                "mean square) and not {:.2g} %: one is in LPS coordinates and the other in RAS, it seems; negate x "
+                "and y in the file{}",
+                what, own.name, 100 * signs.given, 100 * signs.negated,
+                system.empty() ? "" : fmt::format(", or give --markers-system {}", system));
         return result;
     }
     constexpr std::size_t most = 5;
@@ -205,6 +214,10 @@ std::vector<std::string> far_markers(const std::vector<MarkerPair>& pairs, const
 
 bool lie_on(const Points& points, const Mesh& mesh) {
     return points.rows() > 0 && mesh.triangles.rows() > 0 && nearly_all(near_flags(points, Surface(mesh)));
+}
+
+bool have_wrong_signs(const Points& points, const Mesh& mesh) {
+    return mesh.triangles.rows() > 0 && signs_of(points, Surface(mesh)).wrong;
 }
 
 } // namespace meshtween

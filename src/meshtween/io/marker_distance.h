@@ -35,4 +35,7 @@ std::vector<std::string> far_markers(const std::vector<MarkerPair>& pairs, const
 // Whether nearly all of the points are within 5 % of the diagonal; false for none.
 bool lie_on(const Points& points, const Mesh& mesh);
 
+// Whether the points would lie on the mesh, and do not now, if x and y were negated.
+bool have_wrong_signs(const Points& points, const Mesh& mesh);
+
 } // namespace meshtween

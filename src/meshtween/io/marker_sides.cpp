@@ -147,7 +147,7 @@ std::string systems_to_say(std::span<const MarkerSide> sides) {
     std::string result;
     for (const MarkerSide& side : sides) {
         const Space mesh = side.mesh_space == Space::unknown ? Space::lps : side.mesh_space;
-        const bool turn = !lies_on(side, *side.mesh);
+        const bool turn = !lies_on(side, *side.mesh) || have_wrong_signs(points_of(side.rows, false), *side.mesh);
         const std::string word(name_of(side.turned == turn ? mesh : other(mesh)));
         if (result != word) result += (result.empty() ? "" : ",") + word;
     }

@@ -70,18 +70,18 @@ const Format* find_format(std::string_view extension) {
     return found == formats.end() ? nullptr : found;
 }
 
-const Format& format_of(const fs::path& path) {
+const Format& format_of(const fs::path& path, const std::vector<std::string>& choice) {
     const std::string extension = lower_extension(path);
     if (const Format* found = find_format(extension)) return *found;
-    throw Error(ErrorKind::argument, fmt::format("{}: {} is no mesh format known here; use one of {}", path.string(),
-                                                 extension.empty() ? "a name without an extension" : extension,
-                                                 fmt::join(mesh_extensions(), " ")));
+    throw Error(ErrorKind::argument,
+                fmt::format("{}: {} is no mesh format known here; use one of {}", path.string(),
+                            extension.empty() ? "a name without an extension" : extension, fmt::join(choice, " ")));
 }
 
 PolygonMesh read_polygons(const fs::path& path) {
     std::error_code ignored;
     if (fs::is_directory(path, ignored)) read_whole(path); // which says so
-    const Format& format = format_of(path);
+    const Format& format = format_of(path, readable_extensions());
     if (format.read == nullptr)
         throw Error(ErrorKind::argument, fmt::format("{}: {} is written but not read; save the model as .glb or .obj",
                                                      path.string(), format.extension));
@@ -116,7 +116,7 @@ std::vector<Mesh> read_meshes(const std::vector<fs::path>& paths) {
 }
 
 void check_writable(const fs::path& path) {
-    const Format& format = format_of(path);
+    const Format& format = format_of(path, mesh_extensions());
     if (format.write == nullptr)
         throw Error(ErrorKind::argument,
                     fmt::format("{}: {} is read but not written; write .glb or .obj", path.string(), format.extension));
@@ -125,7 +125,7 @@ void check_writable(const fs::path& path) {
 
 std::vector<std::string> write_mesh(const Mesh& mesh, const fs::path& path, const WriteOptions& options) {
     check_writable(path);
-    std::vector<std::string> notes = format_of(path).write(mesh, path, options);
+    std::vector<std::string> notes = format_of(path, mesh_extensions()).write(mesh, path, options);
     for (std::string& note : left_behind(mesh, path)) notes.push_back(std::move(note));
     return notes;
 }
