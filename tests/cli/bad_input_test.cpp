@@ -357,7 +357,7 @@ const std::vector<Row> rows = {
      {"good.obj", "neither colours"}},
     {"ALookThatDoesNotComeBack",
      {},
-     {"morph", "a.obj", "b.obj", "--appearance", "both", "--loop", "-o", "x.glb"},
+     {"morph", "#/good.obj", "#/good.obj", "--appearance", "both", "--loop", "-o", "#/x.glb"},
      1,
      {"--appearance both", "--loop"}},
     {"FitLikeBoth", {}, and_then(fit_with("#/good.obj"), {"--appearance", "both"}), 1, {"--appearance", "target"}},
