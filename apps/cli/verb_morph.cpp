@@ -2,6 +2,8 @@
 #include "look_run.h"
 #include "path_inputs.h"
 
+#include "meshtween/core/error.h"
+
 #include <memory>
 
 using namespace meshtween;
