@@ -2,6 +2,7 @@
 
 #include "meshtween/core/error.h"
 #include "meshtween/geometry/check.h"
+#include "meshtween/io/mesh_file.h"
 #include "meshtween/io/mesh_io.h"
 #include "meshtween/io/seams.h"
 
@@ -18,6 +19,8 @@ bool check_file(const std::string& path) {
     try {
         const Mesh mesh = read_mesh(path);
         fmt::print("{}: {} vertices, {} triangles\n", path, mesh.positions.rows(), mesh.triangles.rows());
+        if (mesh.file)
+            for (const std::string& note : mesh.file->notes) fmt::print("{}: note: {}\n", path, note);
         bool usable = true;
         for (const Finding& finding : check(mesh, seams(mesh))) {
             fmt::print("{}: {}: {}\n", path, name_of(finding.severity), finding.what);

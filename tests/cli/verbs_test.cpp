@@ -419,6 +419,8 @@ TEST_F(Verbs, CheckSpeaksOnStandardOutput) {
     EXPECT_NE(ran.out.find("vertices"), std::string::npos);
     std::ofstream(folder_ / "bad.obj") << "v 0 0 0\n";
     EXPECT_EQ(run_program({"check", file("bad.obj")}).status, 3);
+    std::ofstream(folder_ / "side.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2\n";
+    EXPECT_NE(run({"check", file("side.obj")}).out.find("fewer than three corners"), std::string::npos);
 }
 
 TEST_F(Verbs, RotateTurnsWhatTurnsAndHoldsWhatHolds) {

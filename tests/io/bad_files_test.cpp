@@ -135,6 +135,7 @@ TEST_F(BadFiles, EachIsToldWithItsPlace) {
         {"a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n1000000000 0 1 2\n", "line 6: a vertex's number is missing"},
         {"a.stl", stl_binary(3, {0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0}) + std::string(60, '\1'), "promises 3 facets"},
         {"a.stl", stl_binary(1, {0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0}) + std::string(60, '\1'), "promises 1 facets"},
+        {"a.stl", std::string(80, ' ') + "\4\0\0\0"s + std::string(216, '\1'), "promises 4 facets"},
         {"a.stl", stl_binary(0, {0, 0, 1}), "promises 0 facets"},
         {"a.stl", stl_binary(0xffffffff, {0, 0, 1}), "promises 4294967295 facets"},
         {"a.ply", with(ply_ascii, "list uchar", "list uint") + "0 0 0 1 0 0 0 1 0\n4294967295 0 1 2\n",

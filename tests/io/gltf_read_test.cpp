@@ -102,6 +102,17 @@ TEST_F(GltfRead, PartsThatShareTheirVerticesStillDo) {
     EXPECT_EQ(mesh.triangles, (Triangles(5, 3) << 0, 1, 2, 0, 1, 2, 1, 3, 2, 0, 1, 2, 0, 2, 3).finished());
 }
 
+TEST_F(GltfRead, CornersNamedTwiceOnlyLeadOnInAStrip) {
+    root["buffers"].push_back({{"byteLength", 12}, {"uri", "data:;base64,AAABAAIAAgABAAMA"}});
+    root["bufferViews"].push_back({{"buffer", 1}, {"byteLength", 12}});
+    root["accessors"].push_back(
+        {{"bufferView", root["bufferViews"].size() - 1}, {"componentType", 5123}, {"count", 6}, {"type", "SCALAR"}});
+    json& primitive = root["meshes"][0]["primitives"][0];
+    primitive["indices"] = root["accessors"].size() - 1;
+    primitive["mode"] = 5;
+    EXPECT_EQ(read().triangles, (Triangles(2, 3) << 0, 1, 2, 2, 3, 1).finished());
+}
+
 TEST_F(GltfRead, SparseAccessorsAndColoursOfBytes) {
     root["accessors"][0]["sparse"] = json::parse(R"({"count": 1, "indices": {"bufferView": 1, "byteOffset": 4,
         "componentType": 5123}, "values": {"bufferView": 0, "byteOffset": 36}})"); // place 2 becomes place 3's

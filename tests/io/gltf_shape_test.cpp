@@ -114,6 +114,8 @@ TEST_F(GltfShape, ChunksWithoutPaddingAndOldVersions) {
     EXPECT_EQ(read_mesh(scratch.file("u.glb", maker.glb(false))).positions, unit_cube().positions);
     maker.root["asset"]["version"] = "1.0";
     EXPECT_NE(complaint().find("version 1.0"), std::string::npos);
+    maker.root["asset"]["version"] = "0.8";
+    EXPECT_NE(complaint().find("version 0.8"), std::string::npos);
     const auto told = [&](const char* text) {
         return message_of(ErrorKind::file, [&] { read_mesh(scratch.file("v.gltf", text)); });
     };

@@ -74,6 +74,9 @@ TEST_F(LandmarkFiles, ColumnsGoByTheirNames) {
     EXPECT_EQ(shown("a.csv", "0,1,2\n1,0,0\n"), "1 0 1 2; 2 1 0 0");                  // a point like any other
     EXPECT_EQ(shown("a.csv", "name,x,y,z\n#a,1,0,0.5\n# a comment\n#1,0,1,0.25\n"), "#a 1 0 0.5; #1 0 1 0.25");
     EXPECT_EQ(shown("a.csv", "x,y,z\n#a,1,0\n1,0,0.5\n"), "1 1 0 0.5");
+    for (const char* said : {"Sep=;", "\"sep=;\""}) // Excel
+        EXPECT_EQ(shown("a.csv", fmt::format("{}\nname;x;y;z\na;1;0;0,5\n", said)), "a 1 0 0.5");
+    EXPECT_EQ(shown("a.csv", "NA,NA,NA\n1,0,0.5\n"), "1 -; 2 1 0 0.5");
     EXPECT_EQ(shown("a.csv", "na\xEFve,x,y,z\n\xE9,1,0,0.5\n"), "é 1 0 0.5"); // Latin-1
     for (const char* missing : {"NA,NA,NA", "NaN,nan,NaN", ",,", "#N/A,#N/A,#N/A", "null,null,null"})
         EXPECT_EQ(shown("a.csv", fmt::format("name,x,y,z\na,1,0,0.5\nb,{}\n", missing)), "a 1 0 0.5; b -");
@@ -105,6 +108,7 @@ TEST_F(LandmarkFiles, FcsvIsCutAtCommas) {
                                        "3,0,0,0,0,0,0,1,1,1,0,\"c, d\",,,3,0\n"),
               "a 1 0 0.5; b -; c, d -");
     EXPECT_EQ(shown("a.fcsv", header + "1,1,0,0.5,0,0,0,1,1,1,0,a,,\n"), "a 1 0 0.5"); // Slicer 4
+    EXPECT_EQ(shown("a.fcsv", "# columns = label,x,y,z,sel,vis\n#1,1,0,0.5,1,1\n# 2, or so\n"), "#1 1 0 0.5"); // 3
 }
 
 const char* morphologika = "[individuals]\n2\n[landmarks]\n2\n[Dimensions]\n3\n[names]\none\ntwo\n[labels]\nsex\n"

@@ -92,14 +92,15 @@ TEST_F(Markers, SlicerAndItsFormats) {
         "controlPoints": [{"id": "1", "label": "ear, left", "position": [10, 1, 0], "positionStatus": "defined"},
                           {"id": "2", "label": "nose", "position": [11, 0, 1]},
                           {"id": "3", "label": "chin", "position": [10, 0, 0], "positionStatus": "undefined"},
-                          {"id": "4", "label": "brow", "position": null}]}]})";
+                          {"id": "4", "label": "brow", "position": null},
+                          {"id": "5", "label": "lobe", "position": [null, null, null]}]}]})";
     const MarkerPairs markers = read("a.fcsv", fcsv, "b.mrk.json", json);
     ASSERT_EQ(markers.pairs.size(), 2u);
     EXPECT_EQ(markers.pairs[0].name, "nose");
     EXPECT_EQ(markers.pairs[0].target, Point(11, 0, 1));
     EXPECT_EQ(markers.pairs[1].name, "ear, left");
     ASSERT_EQ(markers.notes.size(), 1u);
-    EXPECT_NE(markers.notes[0].find("chin, brow"), std::string::npos) << markers.notes[0];
+    EXPECT_NE(markers.notes[0].find("chin, brow, lobe"), std::string::npos) << markers.notes[0];
 }
 
 TEST_F(Markers, WrapPointsOnTriangles) {

@@ -79,6 +79,7 @@ TEST(OddFiles, AreReadAndTellWhatWasPassedOver) {
         {"library.obj", "mtllib c:\\none.mtl\\\n" + obj, "no material library c:\\none.mtl"},
         {"joined.obj", replaced(obj, "2 3 4", "2\\\n3 \\ \r\n 4"), ""},
         {"joined_v.obj", replaced(obj, "v 1 1 0", "v 1\\\n1 0"), ""},
+        {"joined_to_none.obj", replaced(obj, "1 0\n", "1 0 \\\n"), ""},
         // ends of lines, comments
         {"cr.obj", replaced(obj, "\n", "\r"), ""},
         {"crlf.obj", replaced(obj, "\n", "\r\n"), ""},
@@ -125,6 +126,7 @@ TEST(OddFiles, AreReadAndTellWhatWasPassedOver) {
         {"right.stl", binary_stl(3), ""},
         {"small.stl", binary_stl(1), "the header promises 1 facet, but the file holds 3"},
         {"zero.stl", binary_stl(0), "the header promises 0 facets, but the file holds 3"},
+        {"unknown.stl", binary_stl(0xffffffff), "the header promises 4294967295 facets, but the file holds 3"},
         {"payload.stl", binary_stl(3, 4), ""},
         {"payload_long.stl", binary_stl(3, 300), ""},
         {"solid.stl", replaced(binary_stl(3), std::string(80, ' '), "solid" + std::string(75, ' ')), ""},

@@ -27,6 +27,16 @@ struct Line {
     bool hash = false; // begins with #
 };
 
+// Excel's first line: sep=; in any case, in quotes or not.
+std::optional<char> said_separator(std::string_view line) {
+    if (line.size() == 7 && line.front() == '"' && line.back() == '"') line = line.substr(1, 5);
+    constexpr std::string_view keyword = "sep=";
+    const bool said = line.size() == 5 && std::equal(keyword.begin(), keyword.end(), line.begin(), [](char a, char b) {
+                          return a == std::tolower(static_cast<unsigned char>(b));
+                      });
+    return said ? std::optional(line[4]) : std::nullopt;
+}
+
 std::vector<Line> lines_of(std::string_view bytes, const std::filesystem::path& path, std::optional<char>& separator) {
     std::vector<Line> lines;
     Text text(bytes, path);
@@ -35,11 +45,7 @@ std::vector<Line> lines_of(std::string_view bytes, const std::filesystem::path& 
         if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
         const std::size_t first = line.find_first_not_of(" \t");
         if (first == std::string_view::npos) continue;
-        if (lines.empty() && !separator && line.size() == 5 &&
-            (line.substr(0, 4) == "sep=" || line.substr(0, 4) == "SEP=")) {
-            separator = line[4];
-            continue;
-        }
+        if (lines.empty() && !separator && (separator = said_separator(line))) continue;
         lines.push_back({line, text.line_number(), line[first] == '#'});
     }
     return lines;

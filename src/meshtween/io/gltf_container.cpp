@@ -135,7 +135,9 @@ void GltfData::check_version() const {
     };
     const std::string version = said("version"), least = said("minVersion");
     const bool first = root_.contains("meshes") && root_["meshes"].is_object();
-    if (first || version.compare(0, 1, "1") == 0) fail("is glTF of version 1.0; version 2.0 is read, convert it first");
+    const bool old = version.compare(0, 1, "0") == 0 || version.compare(0, 1, "1") == 0;
+    if (first || old)
+        fail(fmt::format("is glTF of version {}; version 2.0 is read, convert it first", old ? shown(version) : "1.0"));
     if (!asset.is_object()) fail("is no glTF file: it has no 'asset'");
     if ((!version.empty() && version.compare(0, 1, "2") != 0) || (!least.empty() && least != "2.0"))
         fail(fmt::format("is glTF of version {}; version 2.0 is read, convert it first",

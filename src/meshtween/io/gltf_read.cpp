@@ -131,8 +131,8 @@ void GltfReader::read_normals(const GltfPiece& piece, const GltfPlacement& place
     }
 }
 
-// Mode 4: three corners each; 5: a strip, whose every second triangle is turned; 6: a fan. Where a matrix mirrors, its
-// triangles are turned back.
+// Mode 4: three corners each; 5: a strip, whose every second triangle is turned; 6: a fan. Triangles of a strip that
+// name a vertex twice only lead from one part of it to the next. Where a matrix mirrors, its triangles are turned back.
 void GltfReader::read_triangles(const GltfPiece& piece, const GltfPlacement& placement) {
     const json& primitive = layout_.primitive(data_, piece);
     const std::size_t mode = data_.number(primitive, "mode", 4);
@@ -154,6 +154,8 @@ void GltfReader::read_triangles(const GltfPiece& piece, const GltfPlacement& pla
             at = {0, t + 1, t + 2};
         else if (t % 2 == 1)
             std::swap(at[1], at[2]);
+        const double a = corners[at[0]], b = corners[at[1]], c = corners[at[2]];
+        if (mode == 5 && (a == b || b == c || c == a)) continue;
         if (one ? all : mirrors(static_cast<std::size_t>(corners[at[0]]))) std::swap(at[1], at[2]);
         for (const std::size_t i : at)
             mesh_.corners.push_back(static_cast<int>(piece.first + static_cast<std::size_t>(corners[i])));

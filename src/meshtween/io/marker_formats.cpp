@@ -1,10 +1,10 @@
 // The marker files of other programs: MeshLab's picked points, 3D Slicer's markups (fcsv, mrk.json), Wrap's points on
 // triangles, IDAV Landmark's pts, meshes of vertices alone.
+#include "meshtween/io/cells.h"
 #include "meshtween/io/formats.h"
 #include "meshtween/io/marker_files.h"
 #include "meshtween/io/mesh_file.h"
 #include "meshtween/io/output.h"
-#include "meshtween/io/cells.h"
 #include "meshtween/io/text.h"
 
 #include <fmt/format.h>
@@ -64,6 +64,7 @@ MarkerPlace slicer_place(const ordered_json& point, const std::filesystem::path&
     if (position == point.end() || position->is_null()) return {};
     Point result;
     if (!position->is_array() || position->size() != 3) bad_entry(path, where, "its position is not [x, y, z]");
+    if (std::all_of(position->begin(), position->end(), [](const ordered_json& c) { return c.is_null(); })) return {};
     for (std::size_t k = 0; k < 3; ++k) {
         if (!(*position)[k].is_number()) bad_entry(path, where, "its position is not [x, y, z]");
         result[static_cast<Eigen::Index>(k)] = (*position)[k].get<double>();
@@ -182,9 +183,12 @@ MarkerFile read_slicer_fcsv(std::string_view bytes, const std::filesystem::path&
                                                  "obeyed",
                                                  shown(value_of(line))));
         }
-        if (line.find_first_not_of(" \t\r") == std::string_view::npos || line[0] == '#') continue;
+        if (line.find_first_not_of(" \t\r") == std::string_view::npos) continue;
         const std::vector<std::string> cells = cells_of(line, ',');
         const auto cell = [&](std::size_t k) { return k < cells.size() ? cells[k] : std::string(); };
+        if (line[0] == '#' &&
+            !(is_number(cell(column("x"))) && is_number(cell(column("y"))) && is_number(cell(column("z")))))
+            continue; // a comment; else a point whose name begins so
         const std::string label = cell(column("label")), status = cell(status_column(columns));
         // vtkMRMLMarkupsNode: 0 undefined, 1 preview, 2 defined, 3 missing
         MarkerPlace place;

@@ -1,9 +1,9 @@
 // Rows of cells: our own CSV and the tables and bare lists of other programs.
+#include "meshtween/io/cells.h"
 #include "meshtween/io/marker_columns.h"
 #include "meshtween/io/marker_files.h"
 #include "meshtween/io/marker_write.h"
 #include "meshtween/io/output.h"
-#include "meshtween/io/cells.h"
 #include "meshtween/io/text.h"
 #include "meshtween/io/text_out.h"
 
@@ -18,7 +18,10 @@ MarkerColumns columns_of(const CellTable& sheet, const std::filesystem::path& pa
     if (!sheet.header.empty())
         if (auto named = columns_by_name(sheet.header)) return *named;
     const CellRow& first = sheet.rows[0];
-    if (auto counted = columns_by_count(first.cells.size(), !is_number(first.cells[0]))) return *counted;
+    const auto known = std::find_if(sheet.rows.begin(), sheet.rows.end(),
+                                    [](const CellRow& row) { return !is_missing(row.cells[0]); });
+    const bool named = known != sheet.rows.end() && !is_number(known->cells[0]);
+    if (auto counted = columns_by_count(first.cells.size(), named)) return *counted;
     bad_file(path, fmt::format("line {}: a row of {} cells is none of name,sx,sy,sz,tx,ty,tz or name,x,y,z or x,y,z or "
                                "two vertex indices or one; a header that names the columns x, y and z would do",
                                first.line, first.cells.size()));

@@ -68,10 +68,11 @@ public:
         return true;
     }
 
-    // A line that ends in a backslash goes on in the next. The words read before stay read. Tells whether it did.
+    // A line that ends in a backslash goes on in the next, unless a statement of its own begins there: some writers put
+    // a backslash behind the last number too. The words read before stay read. Tells whether it did.
     bool join_lines() {
         const char* end = line_end_;
-        while (ends_in_backslash() && next_ < end_) {
+        while (ends_in_backslash() && next_ < end_ && !next_begins_with_letter()) {
             const char *begin = begin_, *word = word_;
             next_line();
             begin_ = begin, word_ = word;
@@ -176,6 +177,12 @@ private:
         const char* last = line_end_;
         while (last > begin_ && is_blank(last[-1])) --last;
         return last > begin_ && last[-1] == '\\';
+    }
+
+    bool next_begins_with_letter() const {
+        const char* next = next_;
+        while (next < end_ && (*next == ' ' || *next == '\t')) ++next;
+        return next < end_ && ((*next >= 'a' && *next <= 'z') || (*next >= 'A' && *next <= 'Z'));
     }
 
     [[noreturn]] void missing(std::string_view found, std::string_view what) const {
