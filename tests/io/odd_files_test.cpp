@@ -125,6 +125,7 @@ TEST(OddFiles, AreReadAndTellWhatWasPassedOver) {
         {"cr.stl", replaced(stl, "\n", "\r"), ""},
         {"right.stl", binary_stl(3), ""},
         {"small.stl", binary_stl(1), "the header promises 1 facet, but the file holds 3"},
+        {"large.stl", binary_stl(5), "the header promises 5 facets, but the file holds 3"},
         {"zero.stl", binary_stl(0), "the header promises 0 facets, but the file holds 3"},
         {"unknown.stl", binary_stl(0xffffffff), "the header promises 4294967295 facets, but the file holds 3"},
         {"payload.stl", binary_stl(3, 4), ""},

@@ -173,7 +173,6 @@ std::size_t stl_facet_length(const char* facet, bool payloads) {
 
 StlLayout stl_layout(std::string_view bytes, const std::filesystem::path& path) {
     constexpr std::size_t begin = stl_header_size + 4;
-    constexpr std::uint32_t unknown_count = 0xffffffff; // of writers that do not go back to the header
     std::uint32_t count = 0;
     const bool has_count = bytes.size() >= begin;
     if (has_count) std::memcpy(&count, bytes.data() + stl_header_size, sizeof count);
@@ -188,7 +187,7 @@ StlLayout stl_layout(std::string_view bytes, const std::filesystem::path& path) 
         const std::size_t surplus = bytes.size() - expected;
         const bool as_many_each = count > 3 && surplus % count == 0; // bytes behind every facet, and none that say so
         if (surplus < stl_facet_size && count > 0 && !as_many_each) return {false, count, false, count, surplus};
-    } else if (count == unknown_count && bytes.size() > begin && (bytes.size() - begin) % stl_facet_size == 0) {
+    } else if (bytes.size() > begin && (bytes.size() - begin) % stl_facet_size == 0) {
         return {false, (bytes.size() - begin) / stl_facet_size, false, count, 0};
     }
     bad_file(path,
