@@ -48,10 +48,6 @@ void add_play_flags(CLI::App& verb, PathFlags& flags) {
         ->capture_default_str();
 }
 
-// The tolerance's parts for the curve and for the straight lines between an animation's keys; what is left is for
-// floats.
-constexpr double curve_part = 0.9, chord_part = 0.08;
-
 KeyOptions key_options(const PathWork& work, const PathFlags& flags) {
     KeyOptions keys;
     keys.morph = flags.options;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr CurveOptions played{1e-3, 17}; // of paths that are looked at
 // Of files, as the command line makes them: nine tenths of the tolerance are the curve's, the rest is for playing it.
-constexpr CurveOptions written_curve{0.9 * CurveOptions{}.tolerance, CurveOptions{}.max_nodes};
+constexpr CurveOptions written_curve{curve_part * CurveOptions{}.tolerance, CurveOptions{}.max_nodes};
 
 void start(Jobs& jobs, const std::string& kind, Jobs::Work work) {
     if (!jobs.start(kind, std::move(work)))

@@ -9,6 +9,10 @@
 
 namespace meshtween {
 
+// The tolerance's parts for the curve and for the straight lines between an animation's keys; what is left is for
+// floats.
+constexpr double curve_part = 0.9, chord_part = 0.08;
+
 struct PlayOptions {
     double seconds = 2;       // from one end to the other
     bool ping_pong = true;    // and back again

@@ -59,8 +59,8 @@ struct Weld {
 };
 
 // `shapes`: of the mesh's connectivity, in all of which places must be the same; none: the mesh as it is. O(n log n).
-// The same classes whatever the order of vertices and triangles. Nothing is welded where a triangle names a vertex that
-// does not exist.
+// The same classes whatever the order of vertices and triangles, but for heaps of hundreds of vertices. Nothing is
+// welded where a triangle names a vertex that does not exist.
 Weld weld(const Mesh& mesh, const std::vector<const Points*>& shapes = {}, const CornerAttributes& file = {});
 
 // The mesh with welded vertices; all its attributes go along, vertex colours from the first of the file's.
