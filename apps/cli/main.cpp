@@ -1,6 +1,7 @@
 // meshtween: morph one 3D shape into another, from the command line.
 #include "console.h"
 #include "inputs.h"
+#include "overwriting.h"
 #include "spelling.h"
 
 #include "meshtween/core/error.h"
@@ -79,6 +80,8 @@ int main(int argc, char** argv) {
     for (const auto add : {add_morph, add_fit, add_tween, add_blend, add_rotate, add_measure, add_check, add_sample,
                            add_studio, add_transfer})
         add(app, common);
+    for (CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
+        verb->parse_complete_callback([verb] { refuse_overwriting(*verb); });
 
     catch_interrupts();
     try {
