@@ -1,4 +1,5 @@
-// The picture of a project in the list of recent ones: its models as they lie, taken when they have changed.
+// The picture of a project in the list of recent ones: its models as they lie, taken when they have changed and at the
+// latest when the project is left.
 import { api } from './api'
 import { app } from './app'
 import { sides } from './types'
@@ -6,10 +7,18 @@ import { sides } from './types'
 const [width, height] = [320, 150]
 let taken = ''
 let waits = 0
+let running = Promise.resolve()
 
-export function keepPicture() {
+export function pictureSoon() {
   clearTimeout(waits)
-  waits = window.setTimeout(() => void take(), 400)
+  waits = window.setTimeout(() => void pictureNow(), 400)
+}
+
+// Resolves when the picture is kept, or none can be taken.
+export function pictureNow(): Promise<void> {
+  clearTimeout(waits)
+  running = running.then(take)
+  return running
 }
 
 async function take() {

@@ -3,6 +3,7 @@ import { unzip, zip, type Unzipped } from 'fflate'
 import { api, bytes, downloadBlob, Refused, Stopped, type NamedFile } from './api'
 import { app, documentOf, type Busy } from './app'
 import { withModel } from './edits'
+import { pictureNow } from './pictures'
 import { sides, type Examined, type Side } from './types'
 
 // What is shown while a file goes to the program and is read there.
@@ -15,6 +16,7 @@ const stemOf = (name: string) => name.replace(/\.[^.]+$/, '')
 
 async function enter(how: () => Promise<unknown>) {
   await app.saver.flush(true)
+  await pictureNow()
   await how()
   await app.refresh(true)
 }

@@ -3,7 +3,7 @@ import { api, bytes, download } from './api'
 import { app, type Heat } from './app'
 import { placesOf } from './edits'
 import * as painting from './painting'
-import { keepPicture } from './pictures'
+import { pictureSoon } from './pictures'
 import { heatColors, most } from './scene/heat'
 import type { Model } from './scene/model'
 import type { Job, PathInfo, Vec3 } from './types'
@@ -262,7 +262,7 @@ export function wire() {
   app.live = () => void showLive()
   app.modelsChanged = () => {
     refreshLook()
-    keepPicture()
+    pictureSoon()
   }
   app.projectChanged = () => {
     dropPaths()
