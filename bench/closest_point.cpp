@@ -45,7 +45,7 @@ struct Scene {
     Scene() {
         std::mt19937_64 generator(1);
         std::uniform_real_distribution<double> unit(0, 1);
-        std::normal_distribution<double> offset(0, 0.005 * diagonal(mesh.positions));
+        std::normal_distribution<double> offset(0, 0.005 * diagonal(mesh));
         const Points normals = vertex_normals(mesh.positions, mesh.triangles);
         for (Eigen::Index i = 0; i < query_count; ++i) {
             const int t = static_cast<int>(i * mesh.triangles.rows() / query_count);

@@ -32,7 +32,7 @@ void run(benchmark::State& state, const Fit& fit) {
     Points result;
     for (auto _ : state) result = fit(pair, markers);
     state.counters["vertices"] = static_cast<double>(result.rows());
-    state.counters["error %"] = 100 * (result - pair.truth).rowwise().norm().mean() / diagonal(pair.target.positions);
+    state.counters["error %"] = 100 * (result - pair.truth).rowwise().norm().mean() / diagonal(pair.target);
 }
 
 const bool registered = [] {

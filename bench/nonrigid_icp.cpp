@@ -53,7 +53,7 @@ void add_place(Entries& entries, Points& right, const Points& rest, std::span<co
 } // namespace
 
 Points nonrigid_icp(const Mesh& source, const Mesh& target_mesh, std::span<const Marker> markers) {
-    const double size = diagonal(target_mesh.positions);
+    const double size = diagonal(target_mesh);
     const Points target = target_mesh.positions / size;
     Points from(std::ssize(markers), 3), goals(std::ssize(markers), 3);
     for (std::size_t k = 0; k < markers.size(); ++k) {

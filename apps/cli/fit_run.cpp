@@ -5,7 +5,6 @@
 #include "meshtween/fit/markers.h"
 #include "meshtween/fit/quality.h"
 #include "meshtween/fit/refined_fit.h"
-#include "meshtween/io/formats.h"
 #include "meshtween/io/mesh_io.h"
 #include "meshtween/io/text.h"
 
@@ -99,16 +98,6 @@ void check_fit_files(const FitFlags& flags) {
         throw Error(ErrorKind::argument, fmt::format("--refine {}: name a mesh that keeps the order of vertices: .ply, "
                                                      ".obj, .off or .glb",
                                                      flags.refine));
-    for (const auto& [option, name] : {std::pair("--map", &flags.map), std::pair("--weights", &flags.weights),
-                                       std::pair("--refine", &flags.refine)}) {
-        if (name->empty()) continue;
-        const std::filesystem::path folder = std::filesystem::path(*name).parent_path();
-        if (!folder.empty() && !std::filesystem::is_directory(folder))
-            throw Error(ErrorKind::file,
-                        fmt::format("{} {}: there is no folder {}; create it first", option, *name, folder.string()));
-        if (std::filesystem::is_directory(*name))
-            throw Error(ErrorKind::file, fmt::format("{} {} is a folder; name a file in it", option, *name));
-    }
 }
 
 void write_fit_files(const Fitted& fitted, const FitFlags& flags, const WriteOptions& writing, Console& console,
@@ -163,9 +152,6 @@ Fitted run_fit(const Mesh& source, const Mesh& target, const MarkerPairs& marker
                          ? "refine: the source is fine enough as it is"
                          : fmt::format("refine: {} vertices became {} in {} rounds", source.positions.rows(),
                                        done.source.positions.rows(), done.added.size()));
-        const FormatKeeps refined{.texcoords = true, .colors = true};
-        if (const auto lost = not_kept(source, refined); !done.added.empty() && !lost.empty())
-            console.note(fmt::format("refine: the finer mesh leaves behind {}", listed(lost)));
     }
     fitted.mesh.positions = result.positions;
     fitted.report["seconds"] = seconds;

@@ -15,8 +15,9 @@ struct FitFlags {
     std::string map, weights, refine; // files to write, or empty
 };
 void add_fit_flags(CLI::App& verb, FitFlags& flags);
-// Options that tell of one fit and its files; throws Error where a folder for them is missing.
+// Options that tell of one fit and its files.
 void add_fit_files(CLI::App& verb, FitFlags& flags);
+// Throws Error(argument) where --refine names no mesh that keeps the order of vertices.
 void check_fit_files(const FitFlags& flags);
 
 struct Fitted {

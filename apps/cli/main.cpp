@@ -1,7 +1,7 @@
 // meshtween: morph one 3D shape into another, from the command line.
 #include "console.h"
 #include "inputs.h"
-#include "overwriting.h"
+#include "result_files.h"
 #include "spelling.h"
 
 #include "meshtween/core/error.h"
@@ -81,7 +81,7 @@ int main(int argc, char** argv) {
                            add_studio, add_transfer})
         add(app, common);
     for (CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
-        verb->parse_complete_callback([verb] { refuse_overwriting(*verb); });
+        verb->parse_complete_callback([verb] { check_result_files(*verb); });
 
     catch_interrupts();
     try {

@@ -67,11 +67,11 @@ void warn_if_apart(const Sides& sides, const std::vector<SurfacePoint>& places, 
                                 .norm());
     const auto middle = distances.begin() + std::ssize(distances) / 2;
     std::nth_element(distances.begin(), middle, distances.end());
-    if (*middle > apart * diagonal(giver.positions))
+    if (*middle > apart * diagonal(giver))
         console.warn(
             fmt::format("half of the vertices of {} lie more than {:.2g} % of the diagonal from {}: is the one "
                         "fitted to the other?",
-                        sides.receiver_file, 100 * *middle / diagonal(giver.positions), sides.giver_file));
+                        sides.receiver_file, 100 * *middle / diagonal(giver), sides.giver_file));
 }
 
 void transfer_values(const Arguments& a, const Sides& sides, const std::vector<SurfacePoint>& places,

@@ -44,6 +44,7 @@ void add_tween(CLI::App& app, const Common& common) {
         Json report = new_report("tween");
         PathWork work;
         work.outputs = load_outputs(a->outputs);
+        a->path.at.empty() ? check_playable(work.outputs) : check_still(work.outputs);
         const std::vector<Mesh> meshes = load_one_connectivity(a->meshes, console);
         for (const Mesh& mesh : meshes) {
             report["keys"].push_back(describe(mesh));

@@ -234,7 +234,7 @@ TEST_F(Verbs, TweenIsExactAtBothEnds) {
         for (const char* u : {"0", "1"})
             run({"tween", file("bar-bend_source.ply"), file("bar-bend_target.ply"), "--method", method, "--at", u, "-o",
                  file("at" + std::string(u) + ".ply")});
-        const double tolerance = 1e-9 * meshtween::diagonal(from.positions);
+        const double tolerance = 1e-9 * meshtween::diagonal(from);
         EXPECT_LT((meshtween::read_mesh(folder_ / "at0.ply").positions - from.positions).cwiseAbs().maxCoeff(),
                   tolerance)
             << method;

@@ -78,7 +78,7 @@ TEST(Correspondence, WhatTheMeshDoesNotCoverCostsTrustWhereItIs) {
     m.positions.col(2).maxCoeff(&top);
     horned.positions.row(top) *= 1.3;
     const Correspondence c = correspondence(m, horned);
-    EXPECT_NEAR(c.uncovered[static_cast<std::size_t>(top)], 0.3 / diagonal(horned.positions), 1e-6);
+    EXPECT_NEAR(c.uncovered[static_cast<std::size_t>(top)], 0.3 / diagonal(horned), 1e-6);
     EXPECT_LT(c.trust[static_cast<std::size_t>(top)], 0.01);
     Eigen::Index bottom = 0;
     m.positions.col(2).minCoeff(&bottom);

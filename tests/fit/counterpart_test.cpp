@@ -123,7 +123,7 @@ TEST(SurfaceFit, APartOfTheTargetIsEnough) {
     const FitResult fitted = surface_fit(source, open, markers);
     double within = 0, beyond = 0;
     for (Eigen::Index i = 0; i < source.positions.rows(); ++i) {
-        const double off = (fitted.positions.row(i) - target.positions.row(i)).norm() / diagonal(target.positions);
+        const double off = (fitted.positions.row(i) - target.positions.row(i)).norm() / diagonal(target);
         double& worst = target.positions(i, 0) < 0 ? within : beyond;
         worst = std::max(worst, off);
     }

@@ -99,7 +99,7 @@ TEST(PaperFit, TurnsAndScalesWithItsInput) {
     for (Marker& marker : markers) marker.target = moved(marker.target);
     const Points before = fit(pair.source, pair.target, pair.markers, paper()).positions;
     const Points after = fit(source, target, markers, paper()).positions;
-    EXPECT_LT((after - moved(before)).rowwise().norm().maxCoeff(), 1e-6 * diagonal(target.positions));
+    EXPECT_LT((after - moved(before)).rowwise().norm().maxCoeff(), 1e-6 * diagonal(target));
 }
 
 TEST(PaperFit, SameBitsForAnyThreads) {

@@ -41,7 +41,7 @@ TEST(MeetMarkers, MeetsThemOnTheSurfaceAndTurnsNothingOver) {
     ASSERT_GT(worst(m.positions, m, markers), 0.05); // about two edges
     const MetMarkers met = meet_markers(m, target, markers);
     EXPECT_TRUE(met.missed.empty());
-    EXPECT_LT(worst(met.positions, m, markers), 1e-9 * diagonal(target.positions));
+    EXPECT_LT(worst(met.positions, m, markers), 1e-9 * diagonal(target));
     EXPECT_TRUE(flipped_triangles(met.positions, m.triangles, fit_target(target.positions, target.triangles)).empty());
     const Eigen::VectorXd radius = met.positions.rowwise().norm();
     EXPECT_LT((radius.array() - 1).abs().maxCoeff(), 2e-3); // the sagitta of its triangles and of the target's
@@ -91,7 +91,7 @@ TEST(MeetMarkers, BothFitsEndOnTheirMarkers) {
         options.method = method;
         options.markers_exact = true;
         const FitResult r = fit(m, target, markers, options);
-        EXPECT_LT(worst(r.positions, m, markers), 1e-9 * diagonal(target.positions));
+        EXPECT_LT(worst(r.positions, m, markers), 1e-9 * diagonal(target));
     }
 }
 

@@ -166,7 +166,7 @@ TEST(SurfaceFit, WhatNoMarkerNamesIsCoveredToo) {
     const ClosestPointIndex fitted(r.positions, m.triangles);
     for (Eigen::Index i = 0; i < target.positions.rows(); ++i)
         EXPECT_LT(fitted.closest(Point(target.positions.row(i))).squared_distance,
-                  std::pow(0.02 * diagonal(target.positions), 2))
+                  std::pow(0.02 * diagonal(target), 2))
             << target.positions.row(i);
 }
 
@@ -267,7 +267,7 @@ TEST(SurfaceFit, LegsWithoutMarkersReachTheGround) {
     double farthest = 0;
     for (const auto& row : target.positions.rowwise())
         farthest = std::max(farthest, std::sqrt(surface.closest(Point(row)).squared_distance));
-    EXPECT_LT(farthest, 0.0075 * diagonal(target.positions));
+    EXPECT_LT(farthest, 0.0075 * diagonal(target));
 }
 
 TEST(SurfaceFit, ABorderNearTheTargetsMeetsIt) {
@@ -331,7 +331,7 @@ TEST(SurfaceFit, FindsATurnedAndScaledCopy) {
     Mesh target = m;
     target.positions = (3 * spin(m.positions)).rowwise() + Point(10, 0, -5);
     const FitResult r = surface_fit(m, target, vertex_markers(m, target.positions, 6));
-    EXPECT_LT(worst(r.positions, target.positions), 1e-6 * diagonal(target.positions));
+    EXPECT_LT(worst(r.positions, target.positions), 1e-6 * diagonal(target));
 }
 
 TEST(SurfaceFit, PosesABentBar) {
@@ -340,7 +340,7 @@ TEST(SurfaceFit, PosesABentBar) {
     target.positions = bend(finer.positions, 1, std::numbers::pi / 2);
     const Points truth = bend(m.positions, 1, std::numbers::pi / 2);
     const FitResult r = surface_fit(m, target, vertex_markers(m, truth, 24));
-    EXPECT_LT((r.positions - truth).rowwise().norm().mean(), 0.01 * diagonal(target.positions));
+    EXPECT_LT((r.positions - truth).rowwise().norm().mean(), 0.01 * diagonal(target));
     EXPECT_TRUE(flipped_triangles(r.positions, m.triangles, fit_target(target.positions, target.triangles)).empty());
 }
 
@@ -406,7 +406,7 @@ TEST(SurfaceFit, WatchSeesTheWholeMeshEachRound) {
     };
     const FitResult r = surface_fit(m, target, vertex_markers(m, target.positions, 6), options);
     EXPECT_EQ(seen, r.rounds);
-    EXPECT_LT(worst(last, r.positions), 0.01 * diagonal(target.positions)); // settling alone comes after the last
+    EXPECT_LT(worst(last, r.positions), 0.01 * diagonal(target)); // settling alone comes after the last
 }
 
 TEST(SurfaceFit, MarkersPullAsHardAsTheirWeightSays) {

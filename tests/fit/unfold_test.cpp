@@ -113,7 +113,7 @@ TEST(Unfolded, WhatAMembraneFlattensIsDrawnOutAgainWhereTheTargetHasIt) {
         patch.vertices.push_back(static_cast<int>(i));
         patch.remote.push_back(angle);
     }
-    mesh.positions /= diagonal(mesh.positions);
+    mesh.positions /= diagonal(mesh);
     const FitTarget target = fit_target(mesh.positions, mesh.triangles);
     const Shell shell = meshtween::shell(mesh.positions, mesh.triangles);
     const std::vector<TargetSample> samples = target_samples(target);

@@ -19,9 +19,9 @@ struct Ball {
     FitTarget target;
     Ball() : target(make()) { shell = meshtween::shell(mesh.positions, mesh.triangles); }
     FitTarget make() {
-        mesh.positions /= diagonal(mesh.positions);
+        mesh.positions /= diagonal(mesh);
         const Mesh finer = sphere(5);
-        return fit_target(finer.positions / diagonal(finer.positions), finer.triangles);
+        return fit_target(finer.positions / diagonal(finer), finer.triangles);
     }
     TangleSearch search() const { return {shell, target, {}}; }
 };

@@ -36,7 +36,7 @@ TEST(WorstPlaces, EachKindIsFoundWhereItIs) {
     ASSERT_GE(worst.size(), 2u);
     EXPECT_EQ(worst[0].vertex, horn);
     EXPECT_EQ(worst[0].fault, PlaceFault::uncovered);
-    EXPECT_NEAR(worst[0].value, 0.4 / diagonal(target.positions), 1e-6);
+    EXPECT_NEAR(worst[0].value, 0.4 / diagonal(target), 1e-6);
     EXPECT_EQ(worst[1].vertex, lifted);
     EXPECT_EQ(worst[1].fault, PlaceFault::off_target);
     for (std::size_t i = 1; i < worst.size(); ++i) EXPECT_LE(worst[i].badness, worst[i - 1].badness);
@@ -85,7 +85,7 @@ TEST(SuggestMarkers, StartAtTheWorstAndKeepApart) {
     for (std::size_t a = 0; a < next.size(); ++a)
         for (std::size_t b = 0; b < a; ++b)
             EXPECT_GT((m.positions.row(next[a].place.vertex) - m.positions.row(next[b].place.vertex)).norm(),
-                      0.05 * diagonal(m.positions));
+                      0.05 * diagonal(m));
 }
 
 TEST(SuggestMarkers, NoneBesideAMarker) {
@@ -99,7 +99,7 @@ TEST(SuggestMarkers, NoneBesideAMarker) {
     ASSERT_EQ(markers.size(), 1u);
     const Correspondence map = correspondence(m, target);
     for (const MarkerSuggestion& s : suggest_markers(m, target, map, place_faults(m, m, map), markers, 10))
-        EXPECT_GT((m.positions.row(s.place.vertex) - m.positions.row(horn)).norm(), 0.03 * diagonal(m.positions));
+        EXPECT_GT((m.positions.row(s.place.vertex) - m.positions.row(horn)).norm(), 0.03 * diagonal(m));
 }
 
 } // namespace

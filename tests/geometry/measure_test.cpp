@@ -11,7 +11,7 @@ TEST(Measure, Cube) {
     const Mesh cube = unit_cube();
     EXPECT_DOUBLE_EQ(volume(cube.positions, cube.triangles), 1);
     EXPECT_DOUBLE_EQ(surface_area(cube.positions, cube.triangles), 6);
-    EXPECT_DOUBLE_EQ(diagonal(cube.positions), std::sqrt(3.0));
+    EXPECT_DOUBLE_EQ(diagonal(cube), std::sqrt(3.0));
 }
 
 TEST(Measure, InsideOutHasNegativeVolume) {

@@ -49,7 +49,7 @@ void expect_well_made(const Mesh& mesh) {
     ASSERT_TRUE(mesh.positions.allFinite());
     const std::vector<int> parts = components(topology(mesh.positions.rows(), mesh.triangles));
     EXPECT_EQ(*std::max_element(parts.begin(), parts.end()), 0);
-    const double length = diagonal(mesh.positions);
+    const double length = diagonal(mesh);
     double smallest = length;
     for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
         smallest = std::min(smallest, triangle_area(mesh.positions, mesh.triangles, f));
@@ -70,7 +70,7 @@ void expect_sound(const Mesh& mesh, int genus) {
 void expect_true(const Sample& s) {
     ASSERT_EQ(s.truth.rows(), s.source.positions.rows());
     ASSERT_TRUE(s.truth.allFinite());
-    const double length = diagonal(s.target.positions), bulk = volume(s.target.positions, s.target.triangles);
+    const double length = diagonal(s.target), bulk = volume(s.target.positions, s.target.triangles);
     const double skin = surface_area(s.target.positions, s.target.triangles);
     EXPECT_NEAR(volume(s.truth, s.source.triangles), bulk, 0.01 * bulk);
     EXPECT_NEAR(surface_area(s.truth, s.source.triangles), skin, 0.01 * skin);
@@ -84,7 +84,7 @@ void expect_part(const Sample& s) {
     expect_well_made(s.target);
     EXPECT_GT(directed_edges(s.target).size(), 0U);
     ASSERT_EQ(s.truth.rows(), s.source.positions.rows());
-    const double length = diagonal(s.target.positions);
+    const double length = diagonal(s.target);
     EXPECT_LT(2 * surface_area(s.target.positions, s.target.triangles), surface_area(s.truth, s.source.triangles));
     Mesh whole = s.source;
     whole.positions = s.truth;
@@ -98,7 +98,7 @@ void expect_marked(const Sample& s) {
     ASSERT_EQ(s.marker_source.rows(), static_cast<Eigen::Index>(s.marker_names.size()));
     ASSERT_EQ(s.marker_target.rows(), s.marker_source.rows());
     EXPECT_EQ(std::set(s.marker_names.begin(), s.marker_names.end()).size(), s.marker_names.size());
-    const double length = diagonal(s.target.positions);
+    const double length = diagonal(s.target);
     const SurfaceLookup on_source(s.source, 0.01 * length), on_target(s.target, 0.01 * length);
     for (Eigen::Index m = 0; m < s.marker_source.rows(); ++m) {
         // The truth near the marker leads to the marker's other end.

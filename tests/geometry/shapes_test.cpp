@@ -30,7 +30,7 @@ TEST(Shapes, SharpBarFillsItsBox) {
     EXPECT_EQ(euler(b), 2);
     EXPECT_NEAR(volume(b.positions, b.triangles), 8, 1e-12);
     EXPECT_NEAR(surface_area(b.positions, b.triangles), 2 * (4 + 8 + 2), 1e-12);
-    EXPECT_NEAR(diagonal(b.positions), std::sqrt(16 + 1 + 4), 1e-12);
+    EXPECT_NEAR(diagonal(b), std::sqrt(16 + 1 + 4), 1e-12);
 }
 
 TEST(Shapes, RoundedBarKeepsItsExtent) {

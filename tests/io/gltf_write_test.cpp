@@ -125,7 +125,7 @@ TEST(GltfWrite, FarFromTheOriginTheShapeKeepsItsDigits) {
     const auto delta = accessor<float>(glb, primitive(glb)["targets"][0]["POSITION"]);
     const Points back = base.cast<double>().rowwise() + origin;
     const Points end = (base + delta).cast<double>().rowwise() + origin;
-    const double tolerance = 1e-6 * diagonal(mesh.positions);
+    const double tolerance = 1e-6 * diagonal(mesh);
     EXPECT_LT((back - mesh.positions).rowwise().norm().maxCoeff(), tolerance);
     EXPECT_LT((end - shapes[0]).rowwise().norm().maxCoeff(), tolerance);
 }

@@ -17,7 +17,7 @@ TEST(Frames, AreTheCurveInFloat) {
         const FloatCurve f = to_float(c);
         for (const double u : {0.0, 0.2, 0.77, 1.0}) {
             const Points shape = frame(f, u).cast<double>();
-            EXPECT_LT(test::distance(shape, c.at(u)), 1e-6 * diagonal(bar.positions)) << most << " " << u;
+            EXPECT_LT(test::distance(shape, c.at(u)), 1e-6 * diagonal(bar)) << most << " " << u;
         }
     }
 }

@@ -38,7 +38,7 @@ TEST(Keys, VelocityIsContinuous) {
     const double h = 1e-5;
     for (const double t : {1.0 / 3, 2.0 / 3}) {
         const Points before = velocity(path, t - h, h), after = velocity(path, t, h);
-        EXPECT_LT(test::distance(before, after), 0.01 * diagonal(bar.positions)) << t; // which it goes in a piece
+        EXPECT_LT(test::distance(before, after), 0.01 * diagonal(bar)) << t; // which it goes in a piece
     }
     EXPECT_LT(test::distance(velocity(path, 0, h), velocity(path, 1 - h, h)), 0.1);
     EXPECT_LT(test::distance(path.at(0), path.at(1)), 1e-9);
@@ -74,7 +74,7 @@ TEST(Keys, TheFirstDerivativeIsOneOnBothSides) {
     const double before = 0.3 - knots[key], after = knots[key + static_cast<std::size_t>(path.basis.degree) + 1] - 0.3;
     const Points first = (path.nodes[key] - path.nodes[key - 1]) / before;
     const Points second = (path.nodes[key + 1] - path.nodes[key]) / after;
-    EXPECT_LT(test::distance(first, second), 1e-9 * diagonal(bar.positions));
+    EXPECT_LT(test::distance(first, second), 1e-9 * diagonal(bar));
 }
 
 TEST(Keys, ATurnOfTheWayKeepsVolume) { // a bend, then a twist: no corner is cut across turns

@@ -107,7 +107,7 @@ TEST(BoxTree, BoxesHoldTheirTrianglesFarFromTheOriginAndInAnyUnit) {
             const Points positions = Points::NullaryExpr(300, 3, [&] { return (shift + coordinate(random)) * unit; });
             Triangles triangles(100, 3);
             for (int i = 0; i < 300; ++i) triangles(i / 3, i % 3) = i;
-            const Frame to = frame(positions);
+            const Frame to = frame(positions, triangles);
             const std::vector<FloatBox> boxes = triangle_boxes(positions, triangles, to);
             for (int i = 0; i < 300; ++i)
                 for (int k = 0; k < 3; ++k) {

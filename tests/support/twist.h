@@ -1,6 +1,7 @@
 // A morph whose every shape is known: a bar twisted about its length.
 #pragma once
 
+#include "meshtween/geometry/measure.h"
 #include "meshtween/geometry/shapes.h"
 #include "meshtween/morph/curve.h"
 #include "meshtween/morph/spline_fit.h"
@@ -19,6 +20,7 @@ inline Curve twist_curve(const Mesh& mesh, double angle = std::numbers::pi, int 
     path.parameters = lobatto_nodes(nodes);
     for (const double u : path.parameters) path.nodes.push_back(twist(mesh.positions, 3, u * angle));
     Curve curve;
+    curve.diagonal = diagonal(mesh);
     curve.basis = even_basis(nodes - 1, 1);
     curve.nodes = control_meshes(curve.basis, {path, {}, 0});
     curve.keys = {0, 1};

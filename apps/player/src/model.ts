@@ -95,6 +95,15 @@ function verticesOf(meshes: Mesh[], toScene: Matrix4): Float64Array {
     return result;
 }
 
+// Which vertices faces have: others may lie anywhere. Null where all do.
+function usedIn(mesh: Mesh): Uint8Array | null {
+    const index = mesh.geometry.index;
+    if (!index) return null;
+    const used = new Uint8Array(mesh.geometry.getAttribute('position').count);
+    for (let k = 0; k < index.count; ++k) used[index.getX(k)] = 1;
+    return used;
+}
+
 // The box around shapes all along the path, and points of them. The targets themselves lie beside it.
 function extentOf(meshes: Mesh[], toScene: Matrix4, weights: (u: number) => number[]): Pick<Model, 'box' | 'outline'> {
     const total = meshes.reduce((sum, mesh) => sum + mesh.geometry.getAttribute('position').count, 0);
@@ -104,14 +113,16 @@ function extentOf(meshes: Mesh[], toScene: Matrix4, weights: (u: number) => numb
     const box = new Box3();
     const outline: number[] = [];
     const point = new Vector3(), offset = new Vector3();
+    const faces = meshes.map(usedIn);
     let seen = 0;
     for (let look = 0; look < looks; ++look) {
         const shares = weights(look / Math.max(1, looks - 1)).slice(1);
-        for (const mesh of meshes) {
+        for (const [part, mesh] of meshes.entries()) {
             const base = mesh.geometry.getAttribute('position');
             const targets = (mesh.geometry.morphAttributes['position'] ?? []) as BufferAttribute[];
             const parts = targets.flatMap((target, k) => (shares[k]! > 0 ? [{ target, share: shares[k]! }] : []));
             for (let i = 0; i < base.count; ++i) {
+                if (faces[part] && !faces[part][i]) continue;
                 point.fromBufferAttribute(base, i);
                 for (const { target, share } of parts) point.addScaledVector(offset.fromBufferAttribute(target, i), share);
                 box.expandByPoint(point.applyMatrix4(toScene));

@@ -28,17 +28,13 @@ Frame frame_of(const Eigen::AlignedBox3d& box) {
 
 } // namespace
 
-Frame frame_of(const Points& positions) {
-    Eigen::AlignedBox3d box;
-    for (Eigen::Index i = 0; i < positions.rows(); ++i) box.extend(positions.row(i).transpose());
-    return frame_of(box);
+Frame frame_of(const Mesh& mesh) {
+    return frame_of(bounding_box(mesh.positions, mesh.triangles));
 }
 
-Frame frame_of(const Points& positions, const Points& others) {
-    Eigen::AlignedBox3d box;
-    for (const Points* points : {&positions, &others})
-        for (Eigen::Index i = 0; i < points->rows(); ++i) box.extend(points->row(i).transpose());
-    return frame_of(box);
+Frame frame_of(const Mesh& mesh, const Mesh& other) {
+    return frame_of(
+        bounding_box(mesh.positions, mesh.triangles).merged(bounding_box(other.positions, other.triangles)));
 }
 
 Json to_json(const Frame& frame) {

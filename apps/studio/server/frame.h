@@ -15,8 +15,8 @@ struct Frame {
     double scale = 1; // the box's diagonal: drawn = (x - centre) / scale
 };
 
-Frame frame_of(const Points& positions);                       // of a mesh
-Frame frame_of(const Points& positions, const Points& others); // of both together
+Frame frame_of(const Mesh& mesh);
+Frame frame_of(const Mesh& mesh, const Mesh& other); // of both together
 Json to_json(const Frame& frame);
 
 // Little-endian buffers for the page.

@@ -77,7 +77,7 @@ std::shared_ptr<const OpenMesh> open_mesh(const std::filesystem::path& path) {
         if (finding.severity == Severity::error)
             throw Error(ErrorKind::file, fmt::format("{}: {}", path.filename().string(), finding.what));
     ClosestPointIndex index(mesh);
-    const Frame frame = frame_of(mesh.positions);
+    const Frame frame = frame_of(mesh);
     return std::make_shared<const OpenMesh>(OpenMesh{path, hash_of(path), std::filesystem::last_write_time(path),
                                                      std::filesystem::file_size(path), std::move(mesh), frame,
                                                      std::move(findings), std::move(index)});

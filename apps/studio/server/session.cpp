@@ -83,8 +83,7 @@ Json Session::state() const {
         {"samples", offered},
         {"mesh_formats", readable_extensions()},
         {"notes", work_->notes}};
-    if (open.source && open.target)
-        state["result_frame"] = to_json(frame_of(open.source->mesh.positions, open.target->mesh.positions));
+    if (open.source && open.target) state["result_frame"] = to_json(frame_of(open.source->mesh, open.target->mesh));
     return state;
 }
 

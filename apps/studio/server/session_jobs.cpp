@@ -116,7 +116,7 @@ Json Session::run_fit(const Open& open, const std::vector<PlacedMarker>& markers
     {
         const std::lock_guard lock(mutex_);
         live_ = nullptr;
-        live_frame_ = frame_of(open.source->mesh.positions, open.target->mesh.positions);
+        live_frame_ = frame_of(open.source->mesh, open.target->mesh);
     }
     const FitResult result =
         fit(open.source->mesh, open.target->mesh, place_markers(complete_pairs(markers), open.source->mesh), options,
@@ -149,7 +149,7 @@ void Session::start_path(const Json& request) {
         if (found.curve.cancelled || !keep_going(progress, 1, "finding the path")) return nullptr;
         auto path = std::make_shared<PlayedPath>();
         path->asked = asked;
-        path->frame = frame_of(open.source->mesh.positions, open.target->mesh.positions);
+        path->frame = frame_of(open.source->mesh, open.target->mesh);
         path->curve = std::move(found.curve);
         path->normals = drawn_normals(path->curve, open.source->mesh.triangles);
         path->repair = found.repair;
@@ -241,7 +241,7 @@ std::string Session::fitted_buffer(const std::string& what) const {
     if (what == "trust")
         return value_bytes(Eigen::Map<const Eigen::VectorXd>(fitted->map.trust.data(), std::ssize(fitted->map.trust)));
     const Open open = both();
-    return buffer(fitted->mesh, frame_of(open.source->mesh.positions, open.target->mesh.positions), what);
+    return buffer(fitted->mesh, frame_of(open.source->mesh, open.target->mesh), what);
 }
 
 std::string Session::live_positions() const {

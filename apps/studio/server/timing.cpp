@@ -56,7 +56,7 @@ std::optional<RegionTiming> painted_timing(const Json& timing, const Mesh& sourc
     if (dabs.empty()) return std::nullopt;
     std::vector<TimedVertex> vertices(static_cast<std::size_t>(source.positions.rows()));
     for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i].vertex = static_cast<int>(i);
-    const double size = diagonal(source.positions);
+    const double size = diagonal(source);
     for (std::size_t i = 0; i < dabs.size(); ++i) {
         const Dab dab = dab_from_json(dabs[i], i + 1);
         const double reach = dab.radius * size;

@@ -1,6 +1,7 @@
 #include "meshtween/app/film.h"
 
 #include "meshtween/core/error.h"
+#include "meshtween/geometry/measure.h"
 
 #include <fmt/format.h>
 
@@ -12,21 +13,21 @@ Film::Film(const Mesh& mesh, const std::vector<Points>& examples, int size, cons
     if (examples.empty()) throw Error(ErrorKind::argument, "a film needs at least one shape");
     if (size < 16 || size > 8192)
         throw Error(ErrorKind::argument, fmt::format("a picture of {} pixels: 16 to 8192 can be drawn", size));
-    Point low = examples.front().colwise().minCoeff(), high = examples.front().colwise().maxCoeff();
-    for (const Points& p : examples) {
-        low = low.cwiseMin(p.colwise().minCoeff());
-        high = high.cwiseMax(p.colwise().maxCoeff());
-    }
-    origin_ = (low + high) / 2;
+    Eigen::AlignedBox3d box;
+    for (const Points& p : examples) box.extend(bounding_box(p, mesh.triangles));
+    origin_ = box.center().transpose();
     std::vector<Shape> shapes;
     for (const Points& p : examples) shapes.push_back(placed(p, mesh.triangles));
     layout_ = lay_out(shapes, {.tile = size, .columns = 1});
 }
 
 Shape Film::placed(const Points& positions, const Triangles& triangles) const {
+    const Eigen::AlignedBox3d box = bounding_box(positions, triangles);
     Point origin = origin_;
-    origin[1] = positions.col(1).minCoeff();
-    return {positions.rowwise() - origin, triangles, origin, 1};
+    origin[1] = box.min().y();
+    Points inside = positions; // vertices of no face may lie anywhere
+    for (int k = 0; k < 3; ++k) inside.col(k) = positions.col(k).cwiseMax(box.min()[k]).cwiseMin(box.max()[k]);
+    return {inside.rowwise() - origin, triangles, origin, 1};
 }
 
 Image Film::frame(const Points& positions, double faded) const {

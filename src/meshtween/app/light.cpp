@@ -104,9 +104,9 @@ ShadowMap shadow_map(const Points& positions, const Triangles& triangles, const 
     ShadowMap map;
     const Eigen::Vector3d right = towards.unitOrthogonal();
     map.axes << right.transpose(), towards.cross(right).transpose(), -towards.transpose();
-    const Point low = positions.colwise().minCoeff(), high = positions.colwise().maxCoeff();
-    map.centre = (low + high).transpose() / 2;
-    map.scale = (map_side - 4) / std::max(1e-300, (high - low).norm());
+    const Eigen::AlignedBox3d box = bounding_box(positions, triangles);
+    map.centre = box.center();
+    map.scale = (map_side - 4) / std::max(1e-300, box.diagonal().norm());
     Points screen(positions.rows(), 3);
     for (Eigen::Index i = 0; i < positions.rows(); ++i)
         screen.row(i) = map.project(positions.row(i).transpose()).transpose();

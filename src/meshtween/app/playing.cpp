@@ -155,7 +155,7 @@ std::vector<float> float_weights(const Curve& curve, double u) {
 
 WeightKeys weight_keys(const Curve& curve, const PlayOptions& options) {
     check(curve, options);
-    const double size = diagonal(curve.nodes.front()), unit = size > 0 ? size : 1;
+    const double size = curve.diagonal, unit = size > 0 ? size : 1;
     const Times moments = key_moments(curve, options.ease, options.tolerance * size);
     WeightKeys keys;
     keys.chords = moments.error / unit;

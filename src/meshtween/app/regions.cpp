@@ -35,9 +35,9 @@ std::vector<TimedVertex> painted(const std::filesystem::path& path, const Mesh& 
 int nearest_vertex(const Mesh& mesh, const Point& point, const std::string& name, const Text& text) {
     Eigen::Index nearest = 0;
     const double distance = std::sqrt((mesh.positions.rowwise() - point).rowwise().squaredNorm().minCoeff(&nearest));
-    if (distance > 0.1 * diagonal(mesh.positions))
+    if (distance > 0.1 * diagonal(mesh))
         text.fail(fmt::format("'{}' lies off the mesh by {:.3g} of its diagonal; check its unit and axes", shown(name),
-                              distance / diagonal(mesh.positions)));
+                              distance / diagonal(mesh)));
     return static_cast<int>(nearest);
 }
 

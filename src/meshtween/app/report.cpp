@@ -121,7 +121,7 @@ Json to_json(const std::vector<Finding>& findings) {
 Json describe(const Mesh& mesh, const std::vector<Finding>& findings) {
     return {{"vertices", mesh.positions.rows()},
             {"triangles", mesh.triangles.rows()},
-            {"diagonal", diagonal(mesh.positions)},
+            {"diagonal", diagonal(mesh)},
             {"area", surface_area(mesh.positions, mesh.triangles)},
             {"volume", volume(mesh.positions, mesh.triangles)},
             {"findings", to_json(findings)}};

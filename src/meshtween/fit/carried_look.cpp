@@ -180,7 +180,6 @@ MeshFile bare_file(const Mesh& mesh) {
     file.bytes.clear();
     file.images.clear();
     file.material_libraries.clear();
-    file.only_here.clear();
     file.notes.clear();
     file.vertices = mesh.positions.rows();
     for (Material& material : file.materials) material = {.name = material.name, .double_sided = material.double_sided};

@@ -90,7 +90,7 @@ std::vector<SurfacePoint> places_on(const Mesh& mesh, const Mesh& surface) {
     const ClosestPointIndex index(surface);
     std::vector<SurfacePoint> places;
     for (const ClosestPoint& c :
-         closest_alike(mesh, seams(mesh), index, diagonal(surface.positions), index.closest(mesh.positions)))
+         closest_alike(mesh, seams(mesh), index, diagonal(surface), index.closest(mesh.positions)))
         places.push_back(c.where);
     return places;
 }

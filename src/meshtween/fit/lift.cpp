@@ -200,7 +200,7 @@ Points lifted(const Mesh& fitted_mesh, const Mesh& target_mesh) {
     const Renumbered fitted = renumbered(fitted_mesh.positions, fitted_mesh.triangles),
                      target = renumbered(target_mesh.positions, target_mesh.triangles);
     const Point centre = target.positions.colwise().mean();
-    const double size = diagonal(target.positions);
+    const double size = diagonal(target.positions, target.triangles);
     const Points x = (fitted.positions.rowwise() - centre) / size;
     const FitTarget surface = fit_target((target.positions.rowwise() - centre) / size, target.triangles);
     const Points y = lifted(x, fitted.triangles, topology(x.rows(), fitted.triangles), surface);

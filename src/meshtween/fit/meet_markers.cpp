@@ -178,7 +178,7 @@ int rings_for(double length, double edge) {
 MetMarkers meet_markers(const Mesh& fitted, const Mesh& target_mesh, std::span<const Marker> markers) {
     MetMarkers result{fitted.positions, {}};
     const Triangles& triangles = fitted.triangles;
-    if (markers.empty() || missing(fitted.positions, triangles, markers).norm() < met * diagonal(target_mesh.positions))
+    if (markers.empty() || missing(fitted.positions, triangles, markers).norm() < met * diagonal(target_mesh))
         return result;
     const Surroundings around = surroundings(fitted.positions.rows(), triangles);
     const TargetSurface target = target_surface(target_mesh.positions, target_mesh.triangles);

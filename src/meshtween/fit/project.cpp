@@ -79,7 +79,7 @@ Points directions_to_keep(const Points& positions, const Points& normals, const 
 
 TargetSurface target_surface(const Points& positions, const Triangles& triangles) {
     TargetSurface target{{positions, triangles, {}, {}, {}},
-                         diagonal(positions),
+                         diagonal(positions, triangles),
                          std::sqrt(surface_area(positions, triangles)),
                          ClosestPointIndex(positions, triangles),
                          {},

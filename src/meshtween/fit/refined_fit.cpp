@@ -5,6 +5,7 @@
 #include "meshtween/fit/lift.h"
 #include "meshtween/fit/meet_markers.h"
 #include "meshtween/fit/refine.h"
+#include "meshtween/fit/refined_file.h"
 #include "meshtween/geometry/measure.h"
 #include "meshtween/geometry/subdivide.h"
 #include "meshtween/io/seams.h"
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace meshtween {
@@ -131,7 +133,7 @@ Layers finer(const Layers& layers, const Topology& edges, const std::vector<char
 } // namespace
 
 std::vector<char> too_coarse(const Mesh& fitted, const Topology& topology, const Mesh& target, double tolerance) {
-    const double length = tolerance * diagonal(target.positions);
+    const double length = tolerance * diagonal(target);
     std::vector<char> flags(topology.edges.size(), 0);
     const FitTarget surface = fit_target(target.positions, target.triangles);
     const std::vector<char> on = settled_vertices(fitted, surface.index, length);
@@ -151,6 +153,8 @@ RefinedFit refined_fit(const Mesh& source, const Mesh& target, std::span<const M
     bare.on_surface = true, bare.markers_exact = false, bare.weld = false;
     const WholeMesh to(target, options.weld);
     Layers layers = layered(source, options.weld);
+    std::vector<int> uncut(idx(source.triangles.rows())); // the source's triangle of each
+    std::iota(uncut.begin(), uncut.end(), 0);
     if (options.watch) bare.watch = [&](const Points& x) { options.watch(layers.expanded(x)); };
     RefinedFit result;
     const auto share = [&](int round) { return std::pow(2.0, round - refine.rounds); }; // later ones take longer
@@ -175,6 +179,9 @@ RefinedFit refined_fit(const Mesh& source, const Mesh& target, std::span<const M
             result.fit.end = FitEnd::cancelled;
             break;
         }
+        const std::vector<int> parents = uncut_triangles(before.whole.triangles, edges, coarse);
+        std::vector<int> older = std::exchange(uncut, {});
+        for (const int t : parents) uncut.push_back(older[idx(t)]);
         result.added.push_back(static_cast<long>(layers.file().positions.rows() - before.file().positions.rows()));
         result.fit = std::move(next);
     }
@@ -185,6 +192,7 @@ RefinedFit refined_fit(const Mesh& source, const Mesh& target, std::span<const M
     result.fit.positions = layers.expanded(result.fit.positions);
     result.fit.refused = layers.expanded(result.fit.refused);
     result.source = std::move(layers.file());
+    if (!result.added.empty()) result.source.file = refined_file(source, result.source, uncut);
     return result;
 }
 

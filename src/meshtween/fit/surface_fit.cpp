@@ -141,16 +141,16 @@ Similarity start(const Renumbered& source, const Renumbered& target, std::span<c
     return s;
 }
 
-Frame frame_of(const Renumbered& source, const Points& target, std::span<const Marker> markers) {
+Frame frame_of(const Renumbered& source, const Mesh& target, std::span<const Marker> markers) {
     Frame frame;
-    frame.origin = target.cast<long double>().colwise().mean().cast<double>(); // the same in any order
+    frame.origin = target.positions.cast<long double>().colwise().mean().cast<double>(); // the same in any order
     Points from(std::ssize(markers), 3), to(std::ssize(markers), 3);
     for (std::size_t k = 0; k < markers.size(); ++k) {
         from.row(static_cast<Eigen::Index>(k)) = position(source.positions, source.triangles, markers[k].source);
         to.row(static_cast<Eigen::Index>(k)) = markers[k].target;
     }
     if (markers.size() >= 3 && !on_one_line(from) && !on_one_line(to)) frame.turn = align(from, to).rotation;
-    frame.diagonal = diagonal(frame.in(target));
+    frame.diagonal = diagonal(frame.in(target.positions), target.triangles);
     return frame;
 }
 
@@ -384,7 +384,7 @@ FitResult surface_fit(const Mesh& source_mesh, const Mesh& target_mesh, std::spa
     FitResult result;
     const Renumbered source = renumbered(source_mesh.positions, source_mesh.triangles);
     const std::vector<Marker> markers = in_order(given, source.triangle);
-    const Frame frame = frame_of(source, target_mesh.positions, markers);
+    const Frame frame = frame_of(source, target_mesh, markers);
     const Points in_frame = frame.in(target_mesh.positions);
     const Renumbered on_the_grid = renumbered(on_grid(in_frame), target_mesh.triangles);
     Points goals(std::ssize(markers), 3);

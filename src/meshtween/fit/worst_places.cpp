@@ -95,7 +95,7 @@ std::vector<WorstPlace> worst_places(const Mesh& fitted, const std::vector<Worst
                  [](const WorstPlace& f) { return f.badness >= worth_telling; });
     std::stable_sort(order.begin(), order.end(),
                      [](const WorstPlace& a, const WorstPlace& b) { return a.badness > b.badness; });
-    const double least = apart * diagonal(fitted.positions);
+    const double least = apart * diagonal(fitted);
     Points places(0, 3);
     for (const WorstPlace& f : order) {
         if (chosen.size() == count) break;
@@ -110,7 +110,7 @@ std::vector<WorstPlace> worst_places(const Mesh& fitted, const std::vector<Worst
 std::vector<MarkerSuggestion> suggest_markers(const Mesh& source, const Mesh& target, const Correspondence& map,
                                               const std::vector<WorstPlace>& faults, std::span<const Marker> markers,
                                               std::size_t count) {
-    const double size = diagonal(source.positions);
+    const double size = diagonal(source);
     Points taken(0, 3);
     for (const Marker& m : markers) append(taken, position(source.positions, source.triangles, m.source));
     Eigen::VectorXd alone(source.positions.rows()); // to the nearest marker, parts of the diagonal

@@ -8,9 +8,21 @@
 
 namespace meshtween {
 
+Eigen::AlignedBox3d bounding_box(const Points& positions, const Triangles& triangles) {
+    Eigen::AlignedBox3d box;
+    for (const int v : triangles.reshaped()) box.extend(positions.row(v).transpose());
+    if (triangles.size() == 0)
+        for (const auto& point : positions.rowwise()) box.extend(point.transpose());
+    return box;
+}
+
+double diagonal(const Points& positions, const Triangles& triangles) {
+    const Eigen::AlignedBox3d box = bounding_box(positions, triangles);
+    return box.isEmpty() ? 0 : box.diagonal().norm();
+}
+
 double diagonal(const Points& positions) {
-    if (positions.rows() == 0) return 0;
-    return (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
+    return diagonal(positions, Triangles(0, 3));
 }
 
 double triangle_area(const Points& positions, const Triangles& triangles, Eigen::Index t) {

@@ -7,8 +7,16 @@
 
 namespace meshtween {
 
-// The length of the bounding box's diagonal, the length to which all relative lengths refer. 0 for no points.
-double diagonal(const Points& positions);
+// The box around the vertices of faces: a vertex of no face may lie anywhere and says nothing of the shape. Around all
+// points where there is no face.
+Eigen::AlignedBox3d bounding_box(const Points& positions, const Triangles& triangles);
+
+// The length of that box's diagonal, the length to which all relative lengths refer. 0 for no points.
+double diagonal(const Points& positions, const Triangles& triangles);
+double diagonal(const Points& positions); // of the box around all
+inline double diagonal(const Mesh& mesh) {
+    return diagonal(mesh.positions, mesh.triangles);
+}
 
 // Twice the area times the outward normal of triangle t. 1 x 3, unit squared.
 inline Point double_area_normal(const Points& positions, const Triangles& triangles, Eigen::Index t) {

@@ -193,7 +193,7 @@ Sample head_sample(int subdivisions) {
 Sample scan_sample(int subdivisions) {
     Sample sample = head_sample(subdivisions);
     sample.target = seen_part(sample.target);
-    const SurfaceLookup on_part(sample.target, 0.01 * diagonal(sample.target.positions));
+    const SurfaceLookup on_part(sample.target, 0.01 * diagonal(sample.target));
     const Points nearest = on_part.closest(sample.marker_target);
     const std::vector<char> seen = seen_from_front(sample.marker_target);
     std::vector<int> kept;

@@ -13,7 +13,7 @@ Sample pair_of(const SampleParts& parts, int subdivisions) {
     const Points rest = sample.source.positions;
     sample.source.positions = parts.to_source(rest);
     sample.target.positions = parts.to_target(sample.target.positions);
-    const auto lookup = [](const Mesh& mesh) { return SurfaceLookup(mesh, 0.01 * diagonal(mesh.positions)); };
+    const auto lookup = [](const Mesh& mesh) { return SurfaceLookup(mesh, 0.01 * diagonal(mesh)); };
     const SurfaceLookup on_target = lookup(sample.target);
     sample.truth = on_target.closest(parts.to_target(rest));
     sample.marker_names = parts.names;

@@ -29,12 +29,9 @@ public:
         while (std::gcd(step, count) != 1) ++step; // so that all are met, neighbours long after each other
         for (Eigen::Index i = 0; i < std::min(count, most); ++i)
             triangles_.push_back(static_cast<Eigen::Index>(i * step % count));
-        low_.setConstant(std::numeric_limits<double>::infinity());
-        high_ = -low_;
-        for (const int v : mesh.triangles.reshaped()) { // vertices of no face may lie anywhere
-            low_ = low_.cwiseMin(mesh.positions.row(v));
-            high_ = high_.cwiseMax(mesh.positions.row(v));
-        }
+        const Eigen::AlignedBox3d box = bounding_box(mesh.positions, mesh.triangles);
+        low_ = box.min().transpose();
+        high_ = box.max().transpose();
         diagonal_ = (high_ - low_).norm();
     }
 

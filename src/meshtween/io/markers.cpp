@@ -62,7 +62,7 @@ std::string some_of(const std::vector<std::string>& names) {
 
 // Two pairs at one place of the source say the same twice, or contradict each other.
 void settle_coincident(MarkerPairs& markers, const Mesh& source, const Mesh& target, const fs::path& path) {
-    const double near_source = 1e-9 * diagonal(source.positions), near_target = 1e-9 * diagonal(target.positions);
+    const double near_source = 1e-9 * diagonal(source), near_target = 1e-9 * diagonal(target);
     std::vector<MarkerPair>& pairs = markers.pairs;
     std::vector<std::size_t> order(pairs.size());
     std::iota(order.begin(), order.end(), std::size_t{0});

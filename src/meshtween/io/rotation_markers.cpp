@@ -1,10 +1,10 @@
 #include "meshtween/io/rotation_markers.h"
 
+#include "meshtween/io/cells.h"
 #include "meshtween/io/marker_columns.h"
 #include "meshtween/io/marker_distance.h"
 #include "meshtween/io/marker_sides.h"
 #include "meshtween/io/output.h"
-#include "meshtween/io/cells.h"
 #include "meshtween/io/text.h"
 
 #include <fmt/format.h>

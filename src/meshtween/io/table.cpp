@@ -1,7 +1,7 @@
 #include "meshtween/io/table.h"
 
-#include "meshtween/io/output.h"
 #include "meshtween/io/cells.h"
+#include "meshtween/io/output.h"
 #include "meshtween/io/text.h"
 #include "meshtween/io/text_out.h"
 

@@ -109,7 +109,7 @@ std::vector<Points> control_normals(const Curve& curve, const Triangles& triangl
 Curve curve(const std::vector<Interpolant>& pieces, const std::vector<double>& times, bool closed,
             const CurveOptions& options) {
     check(options);
-    const double size = diagonal(pieces.front().nodes.front());
+    const double size = pieces.front().diagonal;
     std::vector<SplineTask> tasks;
     for (std::size_t p = 0; p < pieces.size(); ++p) {
         const bool before = p > 0 || closed, after = p + 1 < pieces.size() || closed;
@@ -124,6 +124,7 @@ Curve curve(const std::vector<Interpolant>& pieces, const std::vector<double>& t
     Curve result;
     result.basis = joined(bases, times);
     result.keys = times;
+    result.diagonal = size;
     for (std::size_t p = 0; p < pieces.size(); ++p) {
         const double error = between_sites * spline_error(bases[p], tasks[p]) + pieces[p].error;
         result.deviation = std::max(result.deviation, size > 0 ? error / size : error);

@@ -18,6 +18,7 @@ struct Curve {
     std::vector<Points> nodes; // K control meshes, the first and last the ends exactly
     std::vector<double> keys;  // where pieces begin and end: the first 0, the last 1; a node lies at each
     double deviation = 0;      // the largest from the path, parts of the diagonal
+    double diagonal = 0;       // the path's, to which tolerances refer, a length
     bool cancelled = false;    // the progress said so: then it has no nodes
     std::vector<double> weights(double u) const; // K, each in 0..1, adding up to 1; degree + 1 above 0 at most
     Points at(double u) const;

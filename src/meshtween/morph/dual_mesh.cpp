@@ -115,7 +115,7 @@ Morph dual_mesh_morph(const Mesh& from, const Points& to, const MorphOptions& op
                                                motion,
                                                from.triangles,
                                                {},
-                                               diagonal(from.positions),
+                                               diagonal(from),
                                                std::min(options.max_sweeps, 100),
                                                1e-5});
     std::vector<std::vector<int>> adjacent(static_cast<std::size_t>(from.triangles.rows()));

@@ -138,12 +138,12 @@ Interpolant interpolant(const Morph& morph, double tolerance, int most, const Pr
             result.cancelled = true;
             return result;
         }
+        if (result.diagonal == 0) result.diagonal = morph.diagonal > 0 ? morph.diagonal : diagonal(sampler.known.at(0));
         const double now = gap(sampler, coarse, fine);
         // Gaps fall by a factor a doubling, or ever faster: the next is no more than now * now / before. That they fall
         // more than tenfold is not counted on.
         result.error = now * (before > 0 ? std::clamp(now / before, 0.1, 1.0) : 1.0);
-        const double size = diagonal(sampler.known.at(0));
-        if ((count > 3 && result.error <= tolerance * size) || 2 * count - 1 > most) {
+        if ((count > 3 && result.error <= tolerance * result.diagonal) || 2 * count - 1 > most) {
             result.parameters = fine;
             for (const double u : fine) result.nodes.push_back(std::move(sampler.known.at(u)));
             return result;

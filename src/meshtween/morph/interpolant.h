@@ -12,6 +12,7 @@ struct Interpolant {
     std::vector<double> parameters; // ascending, the first 0, the last 1
     std::vector<Points> nodes;      // the shapes there
     double error = 0;               // how far it may lie beside the path between nodes, a length
+    double diagonal = 0;            // to which tolerances refer: the morph's, a length
     bool cancelled = false;         // the progress said so: then it has no nodes
     Points at(double u) const;
 };

@@ -55,6 +55,7 @@ struct Pace {
 Interpolant paced(const Interpolant& piece, const Pace& pace, const CurveOptions& options) {
     if (pace.first == 1 && pace.last == 1) return piece;
     Morph moved;
+    moved.diagonal = piece.diagonal;
     moved.at = [&](double t) { return piece.at(std::clamp(pace(t), 0.0, 1.0)); };
     Interpolant result = interpolant(moved, sampled_part * options.tolerance);
     result.error += piece.error;

@@ -1,6 +1,7 @@
 #include "meshtween/morph/morph.h"
 
 #include "meshtween/core/error.h"
+#include "meshtween/geometry/measure.h"
 #include "meshtween/io/seams.h"
 #include "meshtween/morph/methods.h"
 
@@ -115,15 +116,44 @@ Morph expanded(Morph inner, Weld seams) {
     return result;
 }
 
-} // namespace
+// Vertices of no face have no part in the shape's motion and may lie anywhere: they go straight.
+Morph straight_strays(Morph inner, const Mesh& from, const Points& to) {
+    std::vector<char> used(static_cast<std::size_t>(from.positions.rows()), 0);
+    for (const int v : from.triangles.reshaped()) used[static_cast<std::size_t>(v)] = 1;
+    std::vector<int> strays;
+    for (std::size_t i = 0; i < used.size(); ++i)
+        if (used[i] == 0) strays.push_back(static_cast<int>(i));
+    if (strays.empty() || from.triangles.rows() == 0) return inner;
+    const Points start = from.positions(strays, Eigen::all), way = to(strays, Eigen::all) - start;
+    Morph result = inner;
+    result.at = [=, at = inner.at](double u) {
+        Points x = at(u);
+        x(strays, Eigen::all) = start + u * way;
+        return x;
+    };
+    result.at_each = [=, at_each = inner.at_each](const Eigen::VectorXd& own, double whole) {
+        Points x = at_each(own, whole);
+        x(strays, Eigen::all) = start + own(strays).asDiagonal() * way;
+        return x;
+    };
+    return result;
+}
 
-Morph morph(const Mesh& from, const Points& to, const MorphOptions& options, const Progress& progress) {
-    require_sound(from, to, options);
+Morph welded_morph(const Mesh& from, const Points& to, const MorphOptions& options, const Progress& progress) {
     if (!options.weld || options.method == MorphMethod::linear) return morph_by_method(from, to, options, progress);
     Weld found = seams(from, {&from.positions, &to});
     if (!found.any()) return morph_by_method(from, to, options, progress);
     Morph inner = morph_by_method(welded(from, found), found.reduced(to), options, progress);
     return expanded(std::move(inner), std::move(found));
+}
+
+} // namespace
+
+Morph morph(const Mesh& from, const Points& to, const MorphOptions& options, const Progress& progress) {
+    require_sound(from, to, options);
+    Morph result = straight_strays(welded_morph(from, to, options, progress), from, to);
+    result.diagonal = diagonal(from);
+    return result;
 }
 
 } // namespace meshtween

@@ -38,13 +38,14 @@ struct MorphOptions {
     bool weld = true;  // vertices that a seam of the file split are one vertex where all shapes have them in one place
 };
 
-// A path of shapes: at(0) is `from`, at(1) is `to`, to rounding; dual_as_printed only to its solve's tolerance. Safe to
-// ask from several threads.
+// A path of shapes: at(0) is `from`, at(1) is `to`, to rounding; dual_as_printed only to its solve's tolerance.
+// Vertices of no face go straight. Safe to ask from several threads.
 struct Morph {
     std::function<Points(double u)> at; // u in 0..1
     // The same with a parameter a vertex (n, each in 0..1), and that of the whole for its rigid motion.
     std::function<Points(const Eigen::VectorXd& own, double whole)> at_each;
     std::function<SolveReport()> report; // of the most laborious solve so far; no sweeps for methods without a solve
+    double diagonal = 0;                 // of `from`'s faces, to which tolerances refer; 0: of all vertices at u = 0
 };
 
 // Throws Error(argument) where `to` has another number of vertices or options are out of range.

@@ -412,7 +412,7 @@ Repaired repaired(const Interpolant& path, const Triangles& triangles, const Rep
     const int cell_count = static_cast<int>(std::clamp<Eigen::Index>(triangles.rows() / 8, 1, 2000));
     const Patches cells =
         patches(face_field(path.nodes.front(), path.nodes.back(), triangles), triangles, top, cell_count);
-    const double size = diagonal(path.nodes.front());
+    const double size = path.diagonal;
     for (int round = 0; round < options.rounds && result.report.cuts_after > 0; ++round) {
         const int bent = result.report.contacts;
         bend_contacts(result, film, path, cells, top, options, options.reach * size);

@@ -84,7 +84,7 @@ RegionTiming timing_of_whole(const Mesh& mesh, const std::vector<TimedVertex>& g
     }
     Points times = SparseCholesky(matrix).solve(right);
     if (width > 0) { // one step of diffusion that reaches about `width`
-        const double reach = width * diagonal(mesh.positions);
+        const double reach = width * diagonal(mesh);
         SparseMatrix step = laplacian * (reach * reach);
         Points weighted = times;
         for (Eigen::Index i = 0; i < n; ++i) {

@@ -3,6 +3,7 @@
 #include "meshtween/search/box_tree.h"
 
 #include "meshtween/core/parallel.h"
+#include "meshtween/geometry/measure.h"
 
 #include <algorithm>
 #include <bit>
@@ -139,9 +140,10 @@ float next_above(float x) {
 
 } // namespace
 
-Frame frame(const Points& positions) {
+Frame frame(const Points& positions, const Triangles& triangles) {
     Frame result;
-    const Point low = positions.colwise().minCoeff(), high = positions.colwise().maxCoeff();
+    const Eigen::AlignedBox3d box = bounding_box(positions, triangles);
+    const Point low = box.min().transpose(), high = box.max().transpose();
     result.origin = low / 2 + high / 2;
     int exponent = 0;
     std::frexp((high / 2 - low / 2).maxCoeff(), &exponent); // 0 for a single point

@@ -37,7 +37,7 @@ struct Frame {
 
     Point into(const Point& p) const { return (p - origin) * scale; }
 };
-Frame frame(const Points& positions);
+Frame frame(const Points& positions, const Triangles& triangles);
 
 // A box a triangle in that frame, rounded outwards: it holds the triangle whatever the rounding.
 std::vector<FloatBox> triangle_boxes(const Points& positions, const Triangles& triangles, const Frame& frame);

@@ -296,7 +296,7 @@ Pairs sorted_finds(std::ptrdiff_t count, std::ptrdiff_t grain, const Visit& visi
 Pairs self_intersections(const Points& positions, const Triangles& triangles, double gap) {
     if (triangles.rows() == 0) return {};
     const Surface surface{positions, triangles, gap};
-    const auto boxes = search::triangle_boxes(positions, triangles, search::frame(positions));
+    const auto boxes = search::triangle_boxes(positions, triangles, search::frame(positions, triangles));
     const Leaves leaves = leaves_over(surface, boxes, std::vector<char>(boxes.size(), 1));
     return sorted_finds(std::ssize(leaves.leaves), 32, [&](std::ptrdiff_t i, Pairs& found) {
         meet(surface, leaves, leaves.leaves[static_cast<std::size_t>(i)], found);
@@ -307,7 +307,7 @@ Pairs self_intersections(const Points& positions, const Triangles& triangles, co
                          double gap) {
     if (std::find(chosen.begin(), chosen.end(), 1) == chosen.end()) return {};
     const Surface surface{positions, triangles, gap};
-    const auto boxes = search::triangle_boxes(positions, triangles, search::frame(positions));
+    const auto boxes = search::triangle_boxes(positions, triangles, search::frame(positions, triangles));
     const Leaves leaves = leaves_over(surface, boxes, chosen);
     if (leaves.leaves.empty()) return {};
     Cells cells;

@@ -186,7 +186,7 @@ void refit(WideTree& tree, const Points& positions, const Triangles& triangles) 
 
 WideTree wide_tree(const Points& positions, const Triangles& triangles, MeshIs mesh) {
     WideTree tree;
-    const Frame to = frame(positions);
+    const Frame to = frame(positions, triangles);
     tree.origin = to.origin;
     tree.scale = to.scale;
     const BoxTree binary = box_tree(triangle_boxes(positions, triangles, to), wide);
