@@ -193,6 +193,20 @@ TEST(Bake, CoordinatesThatCannotBePainted) {
     Mesh none = mesh;
     none.texcoords.resize(0, 2), none.texcoord_triangles.resize(0, 3);
     EXPECT_NE(picture_layout(none).problem.find("no texture coordinates"), std::string::npos);
+    constexpr int many = 4000; // materials that all want the same place of a picture
+    Mesh stacked = mesh;
+    stacked.triangles = mesh.triangles.row(0).replicate(many, 1);
+    stacked.texcoord_triangles = mesh.texcoord_triangles.row(0).replicate(many, 1);
+    auto file = std::make_shared<MeshFile>();
+    file->cut.resize(many, 3);
+    file->materials.resize(many);
+    for (int t = 0; t < many; ++t) {
+        file->cut.row(t) << 3 * t, 3 * t + 1, 3 * t + 2;
+        file->ends.push_back(3 * t + 3);
+        file->polygon_materials.push_back(t);
+    }
+    stacked.file = file;
+    EXPECT_NE(picture_layout(stacked).problem.find("more than 16 pictures"), std::string::npos);
     const Mesh giver = pictured(mesh, 64);
     const CarriedLook got = carried_look(none, giver, "giver", {.texture_size = 64});
     EXPECT_EQ(got.mesh.colors.rows(), none.positions.rows());

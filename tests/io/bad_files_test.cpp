@@ -53,6 +53,18 @@ std::string vtp_encoded(const std::string& letters, const char* attributes = "")
         "version=\"0.1\"", "version=\"0.1\" "s + attributes);
 }
 
+// Pieces whose points are the same bytes behind the XML.
+std::string vtp_of_one_place(int pieces) {
+    const std::string whole = vtp_ascii, text = "format=\"ascii\">0 0 0 1 0 0 0 1 0<";
+    const std::size_t begin = whole.find("<Piece"), end = whole.find("</PolyData>");
+    std::string bytes = whole.substr(0, begin);
+    for (int i = 0; i < pieces; ++i)
+        bytes += with(whole.substr(begin, end - begin), text, "format=\"appended\" offset=\"0\"><");
+    bytes += "</PolyData><AppendedData encoding=\"raw\">_$\0\0\0"s;
+    for (const float value : {0, 0, 0, 1, 0, 0, 0, 1, 0}) bytes.append(reinterpret_cast<const char*>(&value), 4);
+    return bytes + "</AppendedData></VTKFile>";
+}
+
 std::string stl_binary(std::uint32_t count, std::initializer_list<float> values) {
     std::string bytes(80, ' ');
     bytes.append(reinterpret_cast<const char*>(&count), 4);
@@ -238,6 +250,17 @@ TEST_F(BadFiles, EachIsToldWithItsPlace) {
          "compressed block 0 of 1 is damaged"},
         {"a.vtp", vtp_encoded("AQAAAP///38AAAAACQAAAA==AAAAAAAAAAAA", "compressor=\"vtkZLibDataCompressor\""),
          "promise more than they can hold"},
+        {"a.vtp",
+         vtp_encoded("AQAAAACAAAAAAAAAKAAAAA==AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA==", // which is not
+                                                                                                         // inflated
+                     "compressor=\"vtkZLibDataCompressor\""),
+         "the points: holds 8192 numbers, but 9 are promised"},
+        {"a.vtp",
+         with(with(with(vtp_ascii, "ascii\">0 1 2", "binary\">0 1 2"), "0 1 2<",
+                   "AQAAAACAAAAAAAAAKAAAAA==AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA==<"),
+              "version=\"0.1\"", "compressor=\"vtkZLibDataCompressor\""),
+         "the corners of the polygons: holds 8192 numbers, but 3 are promised"},
+        {"a.vtp", vtp_of_one_place(3), "the arrays of the appended data lie over one another"},
         {"a.vtp", vtp_encoded("////fwCAAAAkAAAACQAAAA==", "compressor=\"vtkZLibDataCompressor\""),
          "promises 2147483647 compressed blocks"},
         {"a.vtp", vtp_encoded("AAAA", "compressor=\"vtkLZ4DataCompressor\""), "compressed with vtkLZ4DataCompressor"},

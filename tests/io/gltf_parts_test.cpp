@@ -1,4 +1,5 @@
 // A GLB of a mesh from a file of another format: its materials and textures, its edges, and reading it back.
+#include "meshtween/io/gltf_split.h"
 #include "meshtween/io/gltf_write.h"
 #include "meshtween/io/mesh_file.h"
 #include "meshtween/io/mesh_io.h"
@@ -117,6 +118,31 @@ TEST(GltfParts, ReadingGivesBackTheMesh) {
     EXPECT_EQ(again.triangles, mesh.triangles);
     const ParsedGlb glb = parse_glb(mesh_glb(moved));
     EXPECT_EQ(glb.root["materials"].size(), 2U);
+}
+
+// As many faces around one vertex, and as many vertices in one place, as no shape has.
+TEST(GltfParts, CrowdedVerticesAndPlaces) {
+    constexpr int many = 100'000;
+    Mesh fan;
+    fan.positions = Points::Zero(many + 3, 3);
+    fan.positions(many + 1, 0) = fan.positions(many + 2, 1) = 1;
+    fan.triangles.resize(many, 3);
+    for (int t = 0; t < many; ++t) fan.triangles.row(t) << many, many + 1, many + 2;
+    fan.texcoord_triangles = fan.triangles;
+    fan.texcoord_triangles.col(0).setLinSpaced(many, 0, many - 1);
+    fan.texcoords = Texcoords::Zero(many + 3, 2);
+    fan.texcoords.col(0).setLinSpaced(0, 1);
+    const auto corners = corner_texcoords(fan);
+    const NormalGroups flat = normal_groups(fan);
+    const GltfParts parts = split_parts(fan, corners, flat, {});
+    EXPECT_EQ(parts.primitives[0].vertices.size(), std::size_t(many + 3 + many - 1));
+
+    // Without normals each vertex goes alone, wherever it lies.
+    Triangles silent(many, 3);
+    for (int t = 0; t < many; ++t) silent.row(t) << t, many + 1, many + 2;
+    const NormalGroups groups = normal_groups(fan.positions, silent, Points::Zero(3 * many, 3));
+    EXPECT_EQ(groups.vertices.size(), std::size_t(many + 2));
+    EXPECT_EQ(groups.of(many - 1, 0), groups.of(many - 2, 0) + 1);
 }
 
 TEST(GltfParts, NumbersThatAreWrongAreNotBelieved) {

@@ -7,6 +7,9 @@
 #include "support/scratch.h"
 #include "support/shapes.h"
 
+#include <filesystem>
+#include <numeric>
+
 #ifdef MESHTWEEN_DRACO
 #include <draco/compression/encode.h>
 #include <draco/mesh/triangle_soup_mesh_builder.h>
@@ -18,6 +21,7 @@
 namespace meshtween {
 namespace {
 
+using namespace std::string_literals;
 using nlohmann::json;
 
 class GltfShape : public testing::Test {
@@ -94,6 +98,108 @@ TEST_F(GltfShape, InstancesBecomeVertices) {
     EXPECT_EQ(mesh.triangles.row(24), Eigen::RowVector3i(16, 17, 18)); // mirrored, so turned back
     attributes["ROTATION"] = maker.add(std::vector<float>{0, 0, 0, 1}, "VEC4");
     EXPECT_NE(complaint().find("ROTATION does not agree"), std::string::npos);
+}
+
+// Small files that ask for more than they hold.
+TEST_F(GltfShape, CountsWithoutDataAreNotBelieved) {
+    const GltfMaker cube = maker;
+    maker.root["accessors"][0]["count"] = 99'000'000;
+    EXPECT_NE(complaint().find("promises 99000000 elements"), std::string::npos);
+
+    // Joints are shared by instances, and by nodes with the same skin.
+    maker = cube;
+    maker.primitive()["attributes"]["JOINTS_0"] = maker.add(eight_times({0, 0, 0, 0}), "VEC4");
+    maker.primitive()["attributes"]["WEIGHTS_0"] = maker.add(eight_times({255, 0, 0, 0}), "VEC4", true);
+    maker.root["skins"] = {{{"joints", std::vector<int>(50'000, 0)}}};
+    maker.root["nodes"][0] = {{"mesh", 0}, {"skin", 0}};
+    const GltfMaker skinned = maker;
+    maker.root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["SCALE"] =
+        maker.add(std::vector<float>(30'000, 1), "VEC3");
+    EXPECT_EQ(read().positions.rows(), 80'000);
+    maker = skinned;
+    maker.root["nodes"] = json(std::vector<json>(10'000, maker.root["nodes"][0]));
+    std::vector<int> all(10'000);
+    std::iota(all.begin(), all.end(), 0);
+    maker.root["scenes"][0]["nodes"] = all;
+    EXPECT_EQ(read().positions.rows(), 80'000);
+    for (int set = 1; set < 20; ++set)
+        for (const char* name : {"JOINTS_", "WEIGHTS_"})
+            maker.primitive()["attributes"][name + std::to_string(set)] = maker.primitive()["attributes"][name + "0"s];
+    EXPECT_NE(complaint().find("more than 16 sets of joints"), std::string::npos);
+
+    // Parts, their vertices and the weights of their morph targets.
+    maker = cube;
+    maker.root["meshes"].push_back({{"primitives", json::array()}});
+    const int scale = maker.add(std::vector<float>(30'000, 1), "VEC3");
+    json node = {{"mesh", 1}};
+    node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["SCALE"] = scale;
+    maker.root["nodes"] = json(std::vector<json>(300, node));
+    maker.root["scenes"][0]["nodes"] = std::vector<int>(all.begin(), all.begin() + 300);
+    EXPECT_NE(complaint().find("more than 2000000 parts"), std::string::npos);
+    maker.root["meshes"][1]["primitives"] = std::vector<json>(500, maker.primitive());
+    maker.root["scenes"][0]["nodes"] = {0};
+    EXPECT_NE(complaint().find("more than 2000000 parts"), std::string::npos);
+    maker = cube;
+    maker.root["nodes"] = json(std::vector<json>(10'000, maker.root["nodes"][0]));
+    maker.root["scenes"][0]["nodes"] = all;
+    maker.root["meshes"][0]["weights"] = std::vector<int>(20'000, 1);
+    EXPECT_NE(complaint().find("more than 100000000 weights"), std::string::npos);
+}
+
+TEST_F(GltfShape, DataThatAreNamedAgainAndAgain) {
+    const int strip = maker.add(std::vector<std::uint16_t>(100'000, 0), "SCALAR");
+    json part = maker.primitive();
+    part["mode"] = 5;
+    part["indices"] = strip;
+    std::vector<json> parts(3000, part);
+    parts.front() = maker.primitive();
+    maker.root["meshes"][0]["primitives"] = parts;
+    EXPECT_NE(complaint().find("name the same data again and again"), std::string::npos);
+}
+
+// What does not touch the shape is left out and told.
+TEST_F(GltfShape, TexturecoordinatesAndPicturesAreLimited) {
+    const int uv = maker.add(std::vector<float>(16, 0), "VEC2");
+    for (int set = 0; set < 1000; ++set) maker.primitive()["attributes"]["TEXCOORD_" + std::to_string(set)] = uv;
+    const int view = maker.view(std::string(100'000, 'x'));
+    maker.root["images"] = std::vector<json>(1000, {{"bufferView", view}, {"mimeType", "image/png"}});
+    const Mesh mesh = read();
+    EXPECT_EQ(mesh.positions, unit_cube().positions);
+    EXPECT_EQ(mesh.file->more_texcoords.size(), 15U);
+    std::size_t bytes = 0;
+    for (const TextureImage& image : mesh.file->images) bytes += image.bytes.size();
+    EXPECT_LT(bytes, 20 * mesh.file->bytes.size());
+    std::string notes;
+    for (const std::string& note : mesh.file->notes) notes += note + "\n";
+    EXPECT_NE(notes.find("more than 16 sets of texture coordinates"), std::string::npos) << notes;
+    EXPECT_NE(notes.find("pictures are damaged: left out"), std::string::npos) << notes;
+}
+
+TEST_F(GltfShape, AFileThatManyBuffersNameIsReadOnce) {
+    scratch.file("more.bin", std::string(10'000'000, '\0'));
+    std::vector<json> buffers(20'000, {{"uri", "more.bin"}, {"byteLength", 10'000'000}});
+    buffers[0] = json::object();
+    buffers[2]["uri"] = "./more.bin";
+    maker.root["buffers"] = buffers;
+    const Mesh mesh = read();
+    EXPECT_EQ(mesh.positions, unit_cube().positions);
+    write_mesh(mesh, scratch.path("b.glb"));
+    EXPECT_LT(std::filesystem::file_size(scratch.path("b.glb")), 12'000'000U);
+}
+
+TEST_F(GltfShape, ManyNamedNodesAreReadInOneGo) {
+    std::vector<json> nodes;
+    std::vector<int> all;
+    for (int i = 0; i < 40'000; ++i) {
+        nodes.push_back({{"mesh", 0}, {"name", "node " + std::to_string(i)}});
+        all.push_back(i);
+    }
+    maker.root["nodes"] = nodes;
+    maker.root["scenes"][0]["nodes"] = all;
+    const Mesh mesh = read();
+    ASSERT_EQ(mesh.file->objects.names.size(), 40'000U);
+    EXPECT_EQ(mesh.file->objects.names[39'999], "node 39999");
+    EXPECT_EQ(mesh.file->objects.of.back(), 39'999);
 }
 
 TEST_F(GltfShape, WhatIsRequiredAndUnknownIsRefusedByName) {
@@ -177,6 +283,15 @@ TEST_F(GltfShape, DracoIsDecoded) {
     EXPECT_EQ(mesh.positions.colwise().sum(), Point(4, 4, 4));
     EXPECT_EQ(mesh.positions.cwiseProduct(mesh.positions), mesh.positions); // all 0 or 1
 
+    // Only the rewriting asks for what an index says of the corners.
+    const json corners = maker.primitive()["indices"];
+    maker.primitive()["indices"] = 1'000'000'000'000;
+    const Mesh damaged = read();
+    const std::vector<std::string> notes = write_mesh(damaged, scratch.path("b.glb"));
+    ASSERT_EQ(notes.size(), 1U);
+    EXPECT_NE(notes[0].find("parts of the template's file are damaged"), std::string::npos) << notes[0];
+    maker.primitive()["indices"] = corners;
+
     draco["attributes"]["POSITION"] = 5;
     EXPECT_NE(complaint().find("Draco mesh lacks POSITION"), std::string::npos);
     draco["bufferView"] = 0; // which holds no such thing
@@ -205,6 +320,9 @@ TEST_F(GltfShape, MeshoptIsDecoded) {
         compression["mode"] = "OTHER";
         EXPECT_NE(complaint().find("meshopt"), std::string::npos);
         compression["mode"] = "ATTRIBUTES";
+        compression["count"] = 100'000; // a megabyte
+        EXPECT_NE(complaint().find("meshopt in a way that is not known"), std::string::npos);
+        compression["count"] = 8;
         compression["byteLength"] = 20;
         EXPECT_NE(complaint().find("meshopt data that cannot be decoded"), std::string::npos);
         compression["byteLength"] = 100000;

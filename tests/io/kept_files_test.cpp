@@ -141,6 +141,21 @@ TEST_F(Kept, LibrariesAndPicturesAreFoundFromWhereTheResultLies) {
     EXPECT_EQ(read_whole(scratch.path("taken/box.mtl")), "newmtl other\n");
 }
 
+TEST_F(Kept, ALibraryThatIsNamedAgainAndAgainIsReadOnce) {
+    std::string library = "newmtl a\nKd 1 0 0\n", statements;
+    for (int i = 0; i < 400'000; ++i) library += "# no more\n";
+    for (int i = 0; i < 4'000; ++i) statements += i % 2 == 0 ? "mtllib box.mtl\n" : "mtllib ./box.mtl\n";
+    scratch.file("box.mtl", library);
+    std::filesystem::create_directory(scratch.path("out"));
+    const std::string contents = statements + "usemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    const Mesh mesh = read_mesh(scratch.file("a.obj", contents));
+    ASSERT_EQ(mesh.file->materials.size(), 1U);
+    EXPECT_EQ(mesh.file->materials[0].base_color[1], 0);
+    EXPECT_TRUE(write_mesh(mesh, scratch.path("out/a.obj")).empty());
+    EXPECT_EQ(read_whole(scratch.path("out/a.obj")), contents);
+    EXPECT_EQ(read_whole(scratch.path("out/box.mtl")), library);
+}
+
 TEST_F(Kept, NothingButPicturesAndLibrariesIsCopied) {
     std::filesystem::create_directories(scratch.path("out"));
     scratch.file("secret", "words");

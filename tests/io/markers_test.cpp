@@ -267,6 +267,11 @@ TEST_F(Markers, BadFilesAreTold) {
 
 TEST_F(Markers, BadSidesAreTold) {
     const char* good = "a,10,0,0\n";
+    const std::string deep = std::string(100'000, '[') + std::string(100'000, ']');
+    const std::string deep_markups = R"({"markups": [{"controlPoints": [{"position": )" + deep + "}]}]}";
+    std::string many = "{";
+    for (int i = 0; i < 30'000; ++i) many += "\"" + std::to_string(i) + "\": null, ";
+    many += R"("last": null})";
     const struct {
         const char *name, *contents, *words;
     } rows[] = {
@@ -283,6 +288,9 @@ TEST_F(Markers, BadSidesAreTold) {
          "not [x, y, z]"},
         {"a.mrk.json", "{\"markups\": [{\"controlPoints\": [7]}]}", "control point 0"},
         {"a.json", "{\"markups\": [", "JSON"},
+        {"a.json", deep.c_str(), "nested too deeply"},
+        {"a.mrk.json", deep_markups.c_str(), "nested too deeply"},
+        {"a.json", many.c_str(), "too many entries"},
         {"a.json", "7", "neither"},
         {"a.json", "[[0, 0.2]]", "entry 0: should be [triangle, u, v]"},
         {"a.json", "[[12, 0.2, 0.2]]", "entry 0: triangle 12 is out of range"},

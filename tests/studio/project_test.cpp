@@ -1,5 +1,7 @@
 #include "project.h"
 
+#include "meshtween/io/json_limits.h"
+
 #include "support/errors.h"
 #include "support/scratch.h"
 
@@ -45,6 +47,9 @@ TEST(Project, tells_what_is_wrong_with_a_file) {
     const auto told = [](const char* text) {
         return message_of(ErrorKind::argument, [&] { project_from_json(Json::parse(text), "/p"); });
     };
+    const auto unread = json_or_discarded<Json>(std::string(100'000, '[') + std::string(100'000, ']'));
+    EXPECT_NE(message_of(ErrorKind::argument, [&] { project_from_json(unread, "/p"); }).find("no meshtween project"),
+              std::string::npos);
     EXPECT_NE(told("null").find("no meshtween project"), std::string::npos);
     EXPECT_NE(told(R"({"meshtween_project": 99})").find("version 99"), std::string::npos);
     EXPECT_NE(told(R"({"meshtween_project": 1, "markers": {}})").find("list"), std::string::npos);

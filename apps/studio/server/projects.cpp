@@ -3,6 +3,7 @@
 #include "files.h"
 
 #include "meshtween/core/error.h"
+#include "meshtween/io/json_limits.h"
 #include "meshtween/io/output.h"
 
 #include <fmt/chrono.h>
@@ -35,7 +36,7 @@ std::vector<Found> projects_in(const fs::path& shelf) {
         const fs::path file = entry.path() / "project.json";
         if (!fs::is_regular_file(file, failure)) continue;
         try {
-            const Json json = Json::parse(read_whole(file), nullptr, false);
+            const Json json = json_or_discarded<Json>(read_whole(file));
             found.push_back({file, fs::last_write_time(file), project_from_json(json, file.parent_path())});
         } catch (const std::exception&) { // not ours, or of a later version: not in the list
             continue;
@@ -197,7 +198,7 @@ void keep_state(const fs::path& project) {
 Json kept_states(const fs::path& project) {
     Json list = Json::array();
     for (const auto& [file, saved] : states_of(project)) {
-        const Json json = Json::parse(read_whole(file), nullptr, false);
+        const Json json = json_or_discarded<Json>(read_whole(file));
         if (!json.is_object() || !json.contains("markers")) continue;
         list.push_back(
             {{"name", file.filename().string()}, {"saved", moment_of(saved)}, {"markers", json["markers"].size()}});
@@ -208,7 +209,7 @@ Json kept_states(const fs::path& project) {
 Project kept_state(const fs::path& project, const std::string& name) {
     for (const auto& [file, saved] : states_of(project))
         if (file.filename() == name)
-            return project_from_json(Json::parse(read_whole(file), nullptr, false), project.parent_path());
+            return project_from_json(json_or_discarded<Json>(read_whole(file)), project.parent_path());
     throw Error(ErrorKind::argument, "that state is no longer kept");
 }
 

@@ -3,6 +3,7 @@
 #include "server.h"
 
 #include "meshtween/core/error.h"
+#include "meshtween/io/json_limits.h"
 #include "meshtween/io/output.h"
 
 #include <fmt/format.h>
@@ -69,7 +70,7 @@ void add_meshes(Routes& all, Session& s, std::size_t most_upload) {
 // Several files in one body: a line of JSON, [{name, size}, ...], and then their bytes.
 std::vector<NamedBytes> files_in(const std::string& body) {
     const std::size_t end = std::min(body.find('\n'), body.size());
-    const Json list = Json::parse(body.substr(0, end), nullptr, false);
+    const Json list = json_or_discarded<Json>(std::string_view(body).substr(0, end));
     std::vector<NamedBytes> files;
     std::size_t at = end + 1;
     if (!list.is_array()) throw Error(ErrorKind::argument, "a list of files is needed");

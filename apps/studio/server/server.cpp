@@ -1,6 +1,7 @@
 #include "server.h"
 
 #include "meshtween/core/error.h"
+#include "meshtween/io/json_limits.h"
 
 #include <fmt/format.h>
 #include <httplib.h>
@@ -72,7 +73,7 @@ const std::string& Question::at(const std::string& name) const {
 }
 
 Json Question::json() const {
-    Json json = Json::parse(body, nullptr, false);
+    Json json = json_or_discarded<Json>(body);
     if (json.is_discarded()) throw Error(ErrorKind::argument, "this is no JSON, or only a part of it");
     return json;
 }

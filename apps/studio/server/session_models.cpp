@@ -2,6 +2,7 @@
 #include "session.h"
 
 #include "meshtween/core/error.h"
+#include "meshtween/io/json_limits.h"
 #include "meshtween/io/output.h"
 
 #include <fmt/format.h>
@@ -17,10 +18,10 @@ constexpr std::size_t most_known = 4;
 
 // A .gltf may name other files, anywhere.
 void refuse_references(const std::string& name, const std::string& bytes) {
-    const Json gltf = Json::parse(bytes, nullptr, false);
+    const auto gltf = json_or_discarded<nlohmann::json>(bytes);
     const auto refers = [&](const char* list) {
         if (!gltf.is_object() || !gltf.contains(list) || !gltf[list].is_array()) return false;
-        return std::any_of(gltf[list].begin(), gltf[list].end(), [](const Json& item) {
+        return std::any_of(gltf[list].begin(), gltf[list].end(), [](const nlohmann::json& item) {
             if (!item.is_object() || !item.contains("uri")) return false;
             return !item["uri"].is_string() || !item["uri"].get<std::string>().starts_with("data:");
         });

@@ -3,6 +3,7 @@
 
 #include "meshtween/core/error.h"
 #include "meshtween/geometry/samples.h"
+#include "meshtween/io/json_limits.h"
 #include "meshtween/io/mesh_io.h"
 #include "meshtween/io/output.h"
 
@@ -17,7 +18,7 @@ namespace {
 Project read_project(const fs::path& file, const fs::path& folder) {
     if (!fs::exists(file)) return {};
     try {
-        return project_from_json(Json::parse(read_whole(file), nullptr, false), folder);
+        return project_from_json(json_or_discarded<Json>(read_whole(file)), folder);
     } catch (const Error& error) {
         throw Error(ErrorKind::file,
                     fmt::format("{}: {}; move it away or name another with --project", file.string(), error.what()));
@@ -218,7 +219,7 @@ std::string Session::add_project(const std::vector<NamedBytes>& files) {
     if (described == files.end())
         throw Error(ErrorKind::argument, "this is no meshtween project: it has no project.json");
     const fs::path nowhere = "/"; // to learn the models' names, before there is a folder
-    const Project first = project_from_json(Json::parse(described->bytes, nullptr, false), nowhere);
+    const Project first = project_from_json(json_or_discarded<Json>(described->bytes), nowhere);
     const std::string name = first.source.path.empty()
                                  ? "project"
                                  : first.source.path.stem().string() + "-" + first.target.path.stem().string();
@@ -229,7 +230,7 @@ std::string Session::add_project(const std::vector<NamedBytes>& files) {
             const fs::path place = plain_place(file.name);
             write_whole(access.place_for(place.parent_path().string(), place.filename().string()), file.bytes);
         }
-        Project project = project_from_json(Json::parse(described->bytes, nullptr, false), folder);
+        Project project = project_from_json(json_or_discarded<Json>(described->bytes), folder);
         find_models(project, folder);
         write_whole(folder / "project.json", to_json(project, folder).dump(2) + "\n");
     } catch (...) {

@@ -131,6 +131,7 @@ PictureLayout picture_layout(const Mesh& mesh) {
         mark(of_key[keys[t]], picture_triangle(mesh, static_cast<Eigen::Index>(t)));
     std::vector<Cells> pictures;
     for (const Key& key : order) {
+        if (pictures.size() > most_pictures) break;
         const Cells& own = of_key[key];
         const auto fits = std::find_if(pictures.begin(), pictures.end(), [&](const Cells& taken) {
             const auto least = static_cast<double>(std::min(own.count(), taken.count()));
@@ -143,7 +144,7 @@ PictureLayout picture_layout(const Mesh& mesh) {
             *fits |= own;
     }
     if (pictures.size() > most_pictures) {
-        layout.problem = fmt::format("has texture coordinates that would take {} pictures", pictures.size());
+        layout.problem = fmt::format("has texture coordinates that would take more than {} pictures", most_pictures);
         return layout;
     }
     layout.count = static_cast<int>(pictures.size());

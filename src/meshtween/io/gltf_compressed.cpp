@@ -113,8 +113,8 @@ bool sensible(const MeshoptView& view) {
 } // namespace
 
 MeshoptBytes decode_meshopt(std::string_view bytes, const MeshoptView& view) {
-    // Well compressed data takes a bit a number; what promises far more is damage or malice.
-    if (!sensible(view) || view.count > 1024 * (bytes.size() + 64))
+    // Nothing shrinks further: two bits stand for a byte of 256 vertices. What promises more is damage or malice.
+    if (!sensible(view) || view.count * view.stride > 1024 * (bytes.size() + 64))
         return {{}, "is compressed with meshopt in a way that is not known here; export it without compression"};
     MeshoptBytes result;
     result.bytes.resize(view.count * view.stride);

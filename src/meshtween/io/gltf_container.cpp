@@ -3,6 +3,7 @@
 #include "meshtween/io/gltf_data.h"
 
 #include "meshtween/core/error.h"
+#include "meshtween/io/json_limits.h"
 #include "meshtween/io/output.h"
 #include "meshtween/io/text.h"
 
@@ -111,13 +112,9 @@ void GltfData::split_container(std::string_view bytes) {
             if (at + 8 > bytes.size() || word_at(bytes, at + 4) != bin) at = (at + 3) / 4 * 4;
         }
     }
-    constexpr int deepest = 256; // copies of what is nested deeper would use up the stack
-    const auto not_too_deep = [&](int depth, json::parse_event_t, json&) {
-        if (depth > deepest) fail("its JSON is nested too deeply; the file is damaged");
-        return true;
-    };
+    if (const std::string_view trouble = json_trouble(text, false); !trouble.empty()) fail(trouble);
     try {
-        root_ = json::parse(text.begin(), text.end(), not_too_deep);
+        root_ = json::parse(text.begin(), text.end());
     } catch (const json::parse_error& error) {
         fail(fmt::format("its JSON cannot be read beyond byte {}; the file is damaged or of another format",
                          error.byte));
@@ -149,6 +146,7 @@ void GltfData::load_buffers() {
     const std::size_t count = this->count("buffers");
     loaded_.resize(count);
     missing_.resize(count);
+    std::map<std::filesystem::path, std::size_t> known; // files that several buffers name are read once
     for (std::size_t i = 0; i < count; ++i) {
         const json& buffer = item("buffers", i);
         if (!buffer.contains("uri")) {
@@ -156,8 +154,17 @@ void GltfData::load_buffers() {
             continue;
         }
         if (!buffer["uri"].is_string()) fail(fmt::format("buffer {}: its uri is no text", i));
+        const std::string uri = buffer["uri"].get<std::string>();
+        if (uri.compare(0, 5, "data:") != 0) {
+            const auto [first, fresh] = known.try_emplace(std::filesystem::path(uri).lexically_normal(), i);
+            if (!fresh) {
+                missing_[i] = missing_[first->second];
+                buffers_.push_back(buffers_[first->second]);
+                continue;
+            }
+        }
         try {
-            loaded_[i] = load_uri(buffer["uri"].get<std::string>());
+            loaded_[i] = load_uri(uri);
         } catch (const Error& error) {
             missing_[i] = error.what();
         }

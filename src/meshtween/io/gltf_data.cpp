@@ -21,6 +21,11 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "glTF's numbers are read as memory has them");
 using nlohmann::json;
 
+// A small file can name the same data any number of times; each vertex that is laid out and each byte asks for few.
+std::size_t most_numbers(std::size_t bytes, std::size_t vertices) {
+    return 100'000'000 + 100 * (bytes + vertices);
+}
+
 template <typename Number>
 double value_at(const char* raw, bool normalized) {
     Number value;
@@ -79,7 +84,8 @@ std::size_t GltfData::number(const json& object, const char* key, std::size_t ot
     if (found == object.end()) return otherwise;
     constexpr std::uint64_t most = std::uint64_t{1} << 40;
     if (!found->is_number_unsigned() || found->get<std::uint64_t>() > most)
-        fail(fmt::format("'{}' is {}, which is no sensible number; the file is damaged", key, shown(found->dump())));
+        fail(fmt::format("'{}' is {}, which is no sensible number; the file is damaged", key,
+                         found->is_structured() ? "a list" : shown(found->dump())));
     return found->get<std::size_t>();
 }
 
@@ -141,10 +147,25 @@ std::string_view GltfData::decoded_view(std::size_t index, const json& compressi
         return value.is_string() ? value.get<std::string>() : std::string();
     };
     const std::string_view bytes = range(compression, fmt::format("the compressed bufferViews[{}]", index));
+    count_decoded(bytes.size());
     MeshoptBytes decoded = decode_meshopt(
         bytes, {number(compression, "count"), number(compression, "byteStride"), text("mode"), text("filter")});
     if (!decoded.trouble.empty()) fail(decoded.trouble);
     return views_[index] = std::move(decoded.bytes);
+}
+
+void GltfData::count_read(std::size_t numbers) const {
+    read_ += numbers;
+    if (const std::size_t most = most_numbers(total_, vertices_); read_ > most)
+        fail(fmt::format("its parts name the same data again and again, more than {} numbers in all; the file is "
+                         "damaged",
+                         most));
+}
+
+// What is compressed is there once.
+void GltfData::count_decoded(std::size_t bytes) const {
+    decoded_ += bytes;
+    if (decoded_ > 2 * total_) fail("its compressed parts lie over one another; the file is damaged");
 }
 
 std::string_view GltfData::view_bytes(std::size_t index) const {
@@ -161,6 +182,7 @@ void GltfData::read_numbers(std::string_view bytes, std::size_t stride, std::siz
         fail(fmt::format(
             "an accessor promises {} elements, more than its {} bytes hold; the file is truncated or damaged", count,
             bytes.size()));
+    count_read(count * rows.columns);
     rows.values.reserve(count * rows.columns);
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t c = 0; c < rows.columns; ++c)
@@ -190,6 +212,7 @@ GltfRows GltfData::rows(std::size_t index) const {
                      rows, count);
     } else {
         if (count > total_) fail(fmt::format("accessors[{}] promises {} elements without data", index, count));
+        count_read(count * rows.columns);
         rows.values.assign(count * rows.columns, 0);
     }
     if (accessor.contains("sparse")) read_sparse(accessor, rows);
@@ -228,7 +251,11 @@ const DracoMesh* GltfData::draco(const json& primitive) const {
     if (compression == extensions->end()) return nullptr;
     const std::size_t index = number(*compression, "bufferView");
     auto known = draco_.find(index);
-    if (known == draco_.end()) known = draco_.emplace(index, decode_draco(view_bytes(index))).first;
+    if (known == draco_.end()) {
+        const std::string_view bytes = view_bytes(index);
+        count_decoded(bytes.size());
+        known = draco_.emplace(index, decode_draco(bytes)).first;
+    }
     if (known->second.trouble.empty()) return &known->second;
     const json& position = item("accessors", number(primitive.at("attributes"), "POSITION"));
     if (position.contains("bufferView")) return nullptr; // the file holds it uncompressed too
@@ -239,11 +266,13 @@ GltfRows GltfData::attribute(const json& primitive, const std::string& name) con
     const std::size_t index = number(primitive.at("attributes"), name.c_str());
     const DracoMesh* compressed = draco(primitive);
     if (compressed == nullptr) return rows(index);
-    const json& numbers = primitive["extensions"]["KHR_draco_mesh_compression"].value("attributes", json::object());
-    if (!numbers.contains(name)) return rows(index);
-    const auto found = compressed->of.find(number(numbers, name.c_str()));
+    const json& compression = primitive["extensions"]["KHR_draco_mesh_compression"];
+    const auto numbers = compression.find("attributes");
+    if (numbers == compression.end() || !numbers->contains(name)) return rows(index);
+    const auto found = compressed->of.find(number(*numbers, name.c_str()));
     if (found == compressed->of.end()) fail(fmt::format("its Draco mesh lacks {}; the file is damaged", name));
     const json& accessor = item("accessors", index);
+    count_read(found->second.values.size());
     GltfRows result = found->second;
     if (result.columns != columns_of(index, accessor)) fail(fmt::format("its Draco mesh has another {}", name));
     const std::size_t type = number(accessor, "componentType");
@@ -255,8 +284,12 @@ GltfRows GltfData::attribute(const json& primitive, const std::string& name) con
 }
 
 std::vector<double> GltfData::corners(const json& primitive, std::size_t vertices) const {
-    if (const DracoMesh* compressed = draco(primitive)) return compressed->corners;
+    if (const DracoMesh* compressed = draco(primitive)) {
+        count_read(compressed->corners.size());
+        return compressed->corners;
+    }
     if (primitive.contains("indices")) return rows(number(primitive, "indices")).values;
+    count_read(vertices);
     std::vector<double> corners(vertices);
     std::iota(corners.begin(), corners.end(), 0.0);
     return corners;

@@ -22,6 +22,12 @@ public:
     const nlohmann::json& root() const { return root_; }
     const std::filesystem::path& path() const { return path_; }
 
+    // Bytes of the file and its buffers.
+    std::size_t size() const { return total_; }
+
+    // How many vertices its parts have in all: reading them takes as many times more numbers.
+    void lay_out(std::size_t vertices) const { vertices_ = vertices; }
+
     // How many items one of the file's lists ("nodes") has.
     std::size_t count(const char* list) const;
     // Item `index` of one of the file's lists. Throws where there is none.
@@ -59,6 +65,8 @@ private:
     std::string_view range(const nlohmann::json& object, const std::string& what) const;
     std::string_view decoded_view(std::size_t index, const nlohmann::json& compression) const;
     const DracoMesh* draco(const nlohmann::json& primitive) const;
+    void count_read(std::size_t numbers) const;
+    void count_decoded(std::size_t bytes) const;
     std::size_t columns_of(std::size_t index, const nlohmann::json& accessor) const;
     void read_numbers(std::string_view bytes, std::size_t stride, std::size_t component_type, bool normalized,
                       GltfRows& rows, std::size_t count) const;
@@ -70,7 +78,10 @@ private:
     std::vector<std::string> loaded_;
     std::vector<std::string> missing_; // why a buffer could not be had; else empty
     std::vector<std::string_view> buffers_;
-    std::size_t total_ = 0;                            // bytes of file and buffers
+    std::size_t total_ = 0; // bytes of file and buffers
+    mutable std::size_t vertices_ = 0;
+    mutable std::size_t read_ = 0; // numbers of accessors so far, and bytes that were decoded
+    mutable std::size_t decoded_ = 0;
     mutable std::map<std::size_t, std::string> views_; // those that were compressed
     mutable std::map<std::size_t, DracoMesh> draco_;   // by bufferView
 };

@@ -43,9 +43,9 @@ TextureImage picture_of(const GltfData& data, std::size_t index) {
 int image_of_texture(const GltfData& data, std::size_t index) {
     const json& texture = data.item("textures", index);
     std::size_t source = data.number(texture, "source", data.count("images"));
-    const json extensions = texture.value("extensions", json::object());
-    for (const auto& [name, extension] : extensions.items())
-        if (source == data.count("images")) source = data.number(extension, "source", source);
+    if (const auto extensions = texture.find("extensions"); extensions != texture.end())
+        for (const auto& [name, extension] : extensions->items())
+            if (source == data.count("images")) source = data.number(extension, "source", source);
     return source < data.count("images") ? static_cast<int>(source) : -1;
 }
 
@@ -77,7 +77,13 @@ void read_gltf_materials(const GltfData& data, MeshFile& file) {
         }
     };
     file.images.resize(data.count("images"));
-    for (std::size_t i = 0; i < file.images.size(); ++i) guarded([&] { file.images[i] = picture_of(data, i); });
+    std::size_t bytes = 0; // of all pictures; a small file can name the same any number of times
+    for (std::size_t i = 0; i < file.images.size(); ++i)
+        guarded([&] {
+            if (bytes > 16 * data.size()) data.fail("has too many pictures");
+            file.images[i] = picture_of(data, i);
+            bytes += file.images[i].bytes.size();
+        });
     file.materials.resize(data.count("materials"));
     for (std::size_t i = 0; i < file.materials.size(); ++i)
         guarded([&] { file.materials[i] = material_of(data, data.item("materials", i)); });

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <map>
 
 namespace meshtween {
 namespace {
@@ -45,7 +46,7 @@ void append_component(std::string& bytes, double value, std::size_t type, bool n
 
 // Gives data to an accessor that has none. Rows of vertex attributes begin at multiples of four.
 void fill_accessor(Glb& glb, std::size_t index, const GltfRows& rows, int target) {
-    json& accessor = glb.root["accessors"][index];
+    json& accessor = glb.root.at("accessors").at(index); // [] would add what is not there
     if (accessor.contains("bufferView")) return;
     const std::size_t type = number_or(accessor, "componentType", 0);
     const bool normalized = accessor.value("normalized", json(false)) == true;
@@ -70,9 +71,15 @@ void drop_extension(json& object, const char* name) {
 
 void merge_buffers(Glb& glb, const GltfData& data) {
     std::vector<std::size_t> begins;
+    std::map<const char*, std::size_t> known; // buffers of one file are one
     for (const std::string_view bytes : data.buffers()) {
+        if (const auto same = known.find(bytes.data()); same != known.end() && !bytes.empty()) {
+            begins.push_back(same->second);
+            continue;
+        }
         glb.bin.resize((glb.bin.size() + 7) / 8 * 8, '\0');
         begins.push_back(glb.bin.size());
+        known.emplace(bytes.data(), begins.back());
         glb.bin.append(bytes);
     }
     for (std::size_t v = 0; v < data.count("bufferViews"); ++v) {
@@ -173,14 +180,14 @@ std::vector<char> byte_owners(const Glb& glb) {
 
 void replace_rows(Glb& glb, std::size_t index, const std::vector<char>& owners, const std::vector<float>& values,
                   std::size_t columns, bool bounds) {
-    json& accessor = glb.root["accessors"][index];
+    json& accessor = glb.root.at("accessors").at(index);
     const std::size_t row = columns * sizeof(float), count = values.size() / columns;
     bool own = number_or(accessor, "componentType", 0) == 5126 && columns_of(accessor) == columns &&
                number_or(accessor, "count", 0) == count && accessor.contains("bufferView") &&
                !accessor.contains("sparse");
     std::size_t begin = 0, stride = row;
     if (own) {
-        const json& view = glb.root["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+        const json& view = glb.root.at("bufferViews").at(accessor["bufferView"].get<std::size_t>());
         begin = number_or(view, "byteOffset", 0) + number_or(accessor, "byteOffset", 0);
         stride = number_or(view, "byteStride", row);
         for (std::size_t i = 0; i < count && own; ++i)

@@ -15,6 +15,7 @@
 
 #include <array>
 #include <cmath>
+#include <unordered_map>
 
 namespace meshtween {
 namespace {
@@ -22,6 +23,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t most_corners = 300'000'000;
+constexpr std::size_t most_texcoord_sets = 16, longest_name = 1000;
 
 // glTF's vertex colours are linear, those of all other mesh formats are what a screen shows. A colour that was a byte
 // before it was written comes back as that byte.
@@ -36,7 +38,6 @@ public:
     GltfReader(std::string_view bytes, const std::filesystem::path& path) : data_(bytes, path) {
         require_known_extensions(data_);
         layout_ = gltf_layout(data_);
-        mesh_.coordinates.resize(3 * layout_.vertices);
     }
 
     PolygonMesh read() {
@@ -53,6 +54,13 @@ public:
     }
 
 private:
+    // The place of a piece's numbers; `all` grow with the data, since a count is only a promise.
+    template <typename Number>
+    Number* place(std::vector<Number>& all, std::size_t columns, const GltfPiece& piece, Number otherwise) {
+        all.resize(std::max(all.size(), columns * (piece.first + piece.count)), otherwise);
+        return all.data() + columns * piece.first;
+    }
+
     void read_vertices(const GltfPiece& piece, const GltfPlacement& placement);
     void read_texcoords(const GltfPiece& piece);
     void read_colors(const GltfPiece& piece);
@@ -67,13 +75,17 @@ private:
     PolygonMesh mesh_;
     std::vector<std::vector<float>> texcoords_; // a set: u v a vertex of the file
     std::vector<double> normals_;               // x y z a vertex of the file
-    std::size_t targets_ = 0;                   // morph targets of the mesh that has most
+    std::unordered_map<std::string, int> names_;
+    std::size_t targets_ = 0; // morph targets of the mesh that has most
+    bool more_texcoords_ = false;
     bool skinned_ = false, weighted_ = false;
 };
 
 void GltfReader::read_vertices(const GltfPiece& piece, const GltfPlacement& placement) {
     gltf_positions(data_, layout_, piece, placement, mesh_.coordinates);
-    targets_ = std::max(targets_, layout_.primitive(data_, piece).value("targets", json::array()).size());
+    const json& primitive = layout_.primitive(data_, piece);
+    if (const auto targets = primitive.find("targets"); targets != primitive.end())
+        targets_ = std::max(targets_, targets->size());
     skinned_ |= placement.skinned;
     weighted_ |= !placement.offsets.empty();
     read_texcoords(piece);
@@ -86,13 +98,18 @@ void GltfReader::read_texcoords(const GltfPiece& piece) {
     for (std::size_t set = 0;; ++set) {
         const std::string name = fmt::format("TEXCOORD_{}", set);
         if (!primitive["attributes"].contains(name)) return;
+        if (set == most_texcoord_sets) {
+            more_texcoords_ = true;
+            return;
+        }
         const GltfRows uv = data_.attribute(primitive, name);
         if (uv.columns != 2 || uv.size() != piece.count) data_.fail(name + " does not agree with POSITION");
-        if (texcoords_.size() == set) texcoords_.emplace_back(2 * layout_.vertices, 0.0F);
+        if (texcoords_.size() == set) texcoords_.emplace_back();
+        float* const to = place(texcoords_[set], 2, piece, 0.0F);
         for (std::size_t i = 0; i < uv.values.size(); ++i) {
             const auto value = std::isfinite(uv.values[i]) ? static_cast<float>(uv.values[i]) : 0.0F;
             // glTF counts v from the top
-            texcoords_[set][2 * piece.first + i] = i % 2 == 0 ? value : 1 - value;
+            to[i] = i % 2 == 0 ? value : 1 - value;
         }
     }
 }
@@ -102,9 +119,9 @@ void GltfReader::read_colors(const GltfPiece& piece) {
     if (!primitive["attributes"].contains("COLOR_0")) return;
     const GltfRows color = data_.attribute(primitive, "COLOR_0");
     if (color.columns < 3 || color.size() != piece.count) data_.fail("COLOR_0 does not agree with POSITION");
-    mesh_.colors.resize(4 * layout_.vertices, 1);
+    float* const to = place(mesh_.colors, 4, piece, 1.0F);
     for (std::size_t i = 0; i < color.size(); ++i) {
-        float* rgba = mesh_.colors.data() + 4 * (piece.first + i);
+        float* rgba = to + 4 * i;
         for (std::size_t c = 0; c < 3; ++c)
             rgba[c] = shown_color(std::clamp(color.values[color.columns * i + c], 0.0, 1.0));
         rgba[3] = color.columns == 4 ? static_cast<float>(color.values[4 * i + 3]) : 1.0F;
@@ -116,7 +133,7 @@ void GltfReader::read_normals(const GltfPiece& piece, const GltfPlacement& place
     if (!primitive["attributes"].contains("NORMAL")) return;
     const GltfRows normals = data_.attribute(primitive, "NORMAL");
     if (normals.columns != 3 || normals.size() != piece.count) return; // they do not shape anything
-    normals_.resize(3 * layout_.vertices, 0.0);
+    double* const to = place(normals_, 3, piece, 0.0);
     Eigen::Matrix3d turn = Eigen::Matrix3d::Identity(); // cofactors: the inverse's transpose without its division
     for (std::size_t i = 0; i < piece.count; ++i) {
         if (i == 0 || placement.matrices.size() > 1) {
@@ -126,8 +143,7 @@ void GltfReader::read_normals(const GltfPiece& piece, const GltfPlacement& place
         }
         const Eigen::Vector3d n =
             (turn * Eigen::Map<const Eigen::Vector3d>(normals.values.data() + 3 * i)).stableNormalized();
-        if (n.allFinite())
-            std::copy_n(n.data(), 3, normals_.begin() + static_cast<std::ptrdiff_t>(3 * (piece.first + i)));
+        if (n.allFinite()) std::copy_n(n.data(), 3, to + 3 * i);
     }
 }
 
@@ -172,17 +188,24 @@ void GltfReader::name_triangles(const GltfPiece& piece) {
     const std::size_t materials = data_.count("materials"), material = data_.number(primitive, "material", materials);
     if (materials > 0)
         file.polygon_materials.resize(mesh_.ends.size(), material < materials ? static_cast<int>(material) : -1);
-    json name = data_.item("nodes", part.node).value("name", json());
-    if (!name.is_string()) name = data_.item("meshes", part.mesh).value("name", json());
-    std::string text = name.is_string() ? name.get<std::string>() : std::string();
+    const auto name_in = [](const json& object) {
+        const auto name = object.find("name");
+        return name != object.end() && name->is_string() ? name->get_ptr<const std::string*>() : nullptr;
+    };
+    const std::string* name = name_in(data_.item("nodes", part.node));
+    if (name == nullptr) name = name_in(data_.item("meshes", part.mesh));
+    std::string text = name != nullptr ? name->substr(0, longest_name) : std::string();
     if (part.instance > 0) text += fmt::format(" {}", part.instance + 1);
-    auto known = std::find(file.objects.names.begin(), file.objects.names.end(), text);
-    if (known == file.objects.names.end()) known = file.objects.names.insert(known, text);
-    file.objects.of.resize(mesh_.ends.size(), static_cast<int>(known - file.objects.names.begin()));
+    const auto [known, fresh] = names_.try_emplace(text, static_cast<int>(file.objects.names.size()));
+    if (fresh) file.objects.names.push_back(text);
+    file.objects.of.resize(mesh_.ends.size(), known->second);
 }
 
 void GltfReader::attach_corners() {
     if (mesh_.file.objects.names == std::vector<std::string>{""}) mesh_.file.objects = {};
+    for (std::vector<float>& set : texcoords_) set.resize(2 * layout_.vertices, 0);
+    if (!mesh_.colors.empty()) mesh_.colors.resize(4 * layout_.vertices, 1);
+    if (!normals_.empty()) normals_.resize(3 * layout_.vertices, 0);
     if (!texcoords_.empty()) {
         mesh_.texcoords = std::move(texcoords_.front());
         mesh_.texcoord_corners = mesh_.corners;
@@ -207,6 +230,9 @@ void GltfReader::add_notes() {
     if (layout_.passed_over > 0)
         notes.push_back(
             fmt::format("{} of its parts are points or lines, not triangles: passed over", layout_.passed_over));
+    if (more_texcoords_)
+        notes.push_back(fmt::format("it has more than {} sets of texture coordinates: the others are passed over",
+                                    most_texcoord_sets));
     if (skinned_) notes.emplace_back("its skin is read in its rest pose, as a viewer shows it without an animation");
     if (weighted_) notes.emplace_back("its morph targets are read with the file's default weights, not with 0");
 }

@@ -136,8 +136,9 @@ void Rewriter::find_users() {
     for (std::size_t m = 0; m < meshes.size(); ++m)
         for (const json& primitive : meshes[m].value("primitives", json::array())) {
             if (!has_triangles(data_, primitive)) continue;
+            const std::string user = user_key(m, primitive);
             for (const auto& [name, accessor] : primitive["attributes"].items())
-                if (accessor.is_number_unsigned()) users_[accessor.get<std::size_t>()].insert(user_key(m, primitive));
+                if (accessor.is_number_unsigned()) users_[accessor.get<std::size_t>()].insert(user);
         }
 }
 
@@ -225,7 +226,7 @@ std::size_t Rewriter::put_rows(std::size_t accessor, const std::string& user, co
     if (!fresh) return known->second;
     if (users_[accessor].size() > 1 || users_[accessor].count(user) == 0) {
         known->second = glb_.root["accessors"].size();
-        json copy = glb_.root["accessors"][accessor];
+        json copy = glb_.root.at("accessors").at(accessor);
         for (const char* key : {"bufferView", "sparse"}) copy.erase(key);
         glb_.root["accessors"].push_back(std::move(copy));
     }

@@ -21,7 +21,12 @@ namespace {
 using Eigen::Matrix4d;
 using nlohmann::json;
 
-constexpr std::size_t most_vertices = 100'000'000; // a small file can ask for any number by repeating a mesh
+// A small file can ask for any number by repeating a mesh.
+constexpr std::size_t most_vertices = 100'000'000, most_parts = 2'000'000;
+constexpr int most_sets = 16; // of joints
+
+using Joints = std::shared_ptr<const std::vector<Matrix4d>>;
+using Weights = std::shared_ptr<const std::vector<double>>;
 
 template <std::size_t Count>
 std::array<double, Count> numbers(const GltfData& data, const json& object, const char* key,
@@ -118,7 +123,9 @@ public:
         return worlds_[node];
     }
 
-    std::vector<Matrix4d> joints(std::size_t skin_index) {
+    Joints joints(std::size_t skin_index) {
+        Joints& known = skins_[skin_index];
+        if (known) return known;
         const json& skin = data_.item("skins", skin_index);
         const std::vector<std::size_t> joints = data_.numbers(skin, "joints");
         GltfRows inverse;
@@ -133,14 +140,14 @@ public:
             if (inverse.columns != 0) matrix *= Eigen::Map<const Matrix4d>(inverse.values.data() + 16 * j);
             result.push_back(matrix);
         }
-        return result;
+        return known = std::make_shared<std::vector<Matrix4d>>(std::move(result));
     }
 
-    std::vector<double> weights(const json& node, std::size_t mesh) const {
-        const json& from = node.contains("weights") ? node : data_.item("meshes", mesh);
-        std::vector<double> weights = data_.reals(from, "weights");
-        if (std::all_of(weights.begin(), weights.end(), [](double w) { return w == 0; })) weights.clear();
-        return weights;
+    Weights weights(const json& node, std::size_t mesh) {
+        if (node.contains("weights")) return weights_of(node);
+        Weights& known = weights_[mesh];
+        if (!known) known = weights_of(data_.item("meshes", mesh));
+        return known;
     }
 
     // The matrices of a node's instances, in the node's coordinates; none where it has none.
@@ -172,8 +179,16 @@ public:
     }
 
 private:
+    Weights weights_of(const json& object) const {
+        std::vector<double> weights = data_.reals(object, "weights");
+        if (std::all_of(weights.begin(), weights.end(), [](double w) { return w == 0; })) weights.clear();
+        return std::make_shared<std::vector<double>>(std::move(weights));
+    }
+
     const GltfData& data_;
     std::size_t nodes_;
+    std::map<std::size_t, Joints> skins_;
+    std::map<std::size_t, Weights> weights_; // of meshes
     std::vector<Matrix4d> worlds_;
     std::vector<std::size_t> parents_; // nodes_: none
     std::vector<char> known_;          // of the worlds
@@ -199,6 +214,8 @@ std::vector<Influences> influences(const GltfData& data, const json& primitive, 
         const std::string joints = fmt::format("JOINTS_{}", set), weights = fmt::format("WEIGHTS_{}", set);
         if (!primitive.at("attributes").contains(joints) || !primitive.at("attributes").contains(weights))
             return result;
+        if (set == most_sets)
+            data.fail(fmt::format("has more than {} sets of joints; export it with fewer joints a vertex", most_sets));
         result.push_back({data.attribute(primitive, joints), data.attribute(primitive, weights)});
         const auto& [j, w] = result.back();
         if (j.columns != 4 || w.columns != 4 || j.size() != vertices || w.size() != vertices)
@@ -248,6 +265,37 @@ std::size_t vertices_of(const GltfData& data, const json& primitive) {
     return count;
 }
 
+// Of one mesh: its primitives that have triangles.
+struct Outline {
+    struct Shown {
+        std::size_t primitive, vertices;
+        std::size_t first; // which of these has the same vertices before it; itself where none has
+    };
+    std::vector<Shown> shown;
+    std::size_t passed_over = 0; // points and lines
+};
+
+Outline outline_of(const GltfData& data, const json& mesh) {
+    Outline outline;
+    const auto primitives = mesh.find("primitives");
+    if (primitives == mesh.end() || !primitives->is_array()) return outline;
+    std::map<std::string, std::size_t> known;
+    for (std::size_t k = 0; k < primitives->size(); ++k) {
+        const json& primitive = (*primitives)[k];
+        if (!has_triangles(data, primitive)) {
+            ++outline.passed_over;
+            continue;
+        }
+        const std::size_t vertices = vertices_of(data, primitive), at = outline.shown.size();
+        outline.shown.push_back({k, vertices, known.emplace(attributes_key(primitive), at).first->second});
+    }
+    return outline;
+}
+
+void require_few(const GltfData& data, std::size_t parts) {
+    if (parts > most_parts) data.fail(fmt::format("has more than {} parts once they are laid out", most_parts));
+}
+
 // Our own morphs whose look fades show the same mesh twice.
 bool is_second_look(const json& node) {
     const json extras = node.value("extras", json());
@@ -276,6 +324,7 @@ std::vector<GltfPart> gltf_parts(const GltfData& data) {
         part.weights = scene.weights(node, part.mesh);
         if (node.contains("skin")) part.joints = scene.joints(data.number(node, "skin"));
         const std::vector<Matrix4d> instances = scene.instances(node);
+        require_few(data, parts.size() + instances.size());
         if (instances.empty() && !node.value("extensions", json::object()).contains("EXT_mesh_gpu_instancing"))
             parts.push_back(part);
         for (std::size_t i = 0; i < instances.size(); ++i) {
@@ -296,26 +345,30 @@ const json& GltfLayout::primitive(const GltfData& data, const GltfPiece& piece) 
 GltfLayout gltf_layout(const GltfData& data) {
     GltfLayout layout;
     layout.parts = gltf_parts(data);
+    std::map<std::size_t, Outline> outlines;
+    std::size_t weights = 0;
     for (std::size_t p = 0; p < layout.parts.size(); ++p) {
-        std::map<std::string, GltfPiece> known;
-        const json& mesh = data.item("meshes", layout.parts[p].mesh);
-        const auto primitives = mesh.find("primitives");
-        if (primitives == mesh.end() || !primitives->is_array()) continue;
-        for (std::size_t k = 0; k < primitives->size(); ++k) {
-            const json& primitive = (*primitives)[k];
-            if (!has_triangles(data, primitive)) {
-                ++layout.passed_over;
-                continue;
-            }
-            GltfPiece piece{p, k, layout.vertices, vertices_of(data, primitive), false};
-            const auto [same, fresh] = known.emplace(attributes_key(primitive), piece);
-            if (!fresh) piece = {p, k, same->second.first, same->second.count, true};
-            if (fresh) layout.vertices += piece.count;
-            if (layout.vertices > most_vertices)
-                data.fail(fmt::format("has more than {} vertices once its parts are laid out", most_vertices));
-            layout.pieces.push_back(piece);
+        const GltfPart& part = layout.parts[p];
+        const auto [found, fresh] = outlines.try_emplace(part.mesh);
+        if (fresh) found->second = outline_of(data, data.item("meshes", part.mesh));
+        const Outline& outline = found->second;
+        layout.passed_over += outline.passed_over;
+        const std::size_t begin = layout.pieces.size();
+        require_few(data, begin + outline.shown.size());
+        for (std::size_t k = 0; k < outline.shown.size(); ++k) {
+            const auto& [primitive, vertices, first] = outline.shown[k];
+            const bool again = first != k;
+            layout.pieces.push_back(
+                {p, primitive, again ? layout.pieces[begin + first].first : layout.vertices, vertices, again});
+            if (again) continue;
+            layout.vertices += vertices;
+            weights += part.weights->size();
+            for (const auto& [count, what] : {std::pair(layout.vertices, "vertices"), {weights, "weights"}})
+                if (count > most_vertices)
+                    data.fail(fmt::format("has more than {} {} once its parts are laid out", most_vertices, what));
         }
     }
+    data.lay_out(layout.vertices);
     return layout;
 }
 
@@ -323,16 +376,16 @@ GltfPlacement gltf_placement(const GltfData& data, const GltfLayout& layout, con
     const GltfPart& part = layout.parts[piece.part];
     const json& primitive = layout.primitive(data, piece);
     GltfPlacement result;
-    result.offsets = weighted_targets(data, primitive, part.weights, piece.count);
-    const std::vector<Influences> sets =
-        part.joints.empty() ? std::vector<Influences>{} : influences(data, primitive, piece.count);
+    result.offsets = weighted_targets(data, primitive, *part.weights, piece.count);
+    const bool bare = !part.joints || part.joints->empty();
+    const std::vector<Influences> sets = bare ? std::vector<Influences>{} : influences(data, primitive, piece.count);
     result.skinned = !sets.empty();
     if (!result.skinned) {
         result.matrices = {part.world};
         return result;
     }
     result.matrices.reserve(piece.count);
-    for (std::size_t i = 0; i < piece.count; ++i) result.matrices.push_back(blended(data, sets, part.joints, i));
+    for (std::size_t i = 0; i < piece.count; ++i) result.matrices.push_back(blended(data, sets, *part.joints, i));
     return result;
 }
 
@@ -341,6 +394,7 @@ void gltf_positions(const GltfData& data, const GltfLayout& layout, const GltfPi
     const GltfRows positions = data.attribute(layout.primitive(data, piece), "POSITION");
     if (positions.columns != 3) data.fail("a POSITION has not three coordinates; the file is damaged");
     if (positions.size() != piece.count) data.fail("a part has another number of vertices than it says");
+    coordinates.resize(std::max(coordinates.size(), 3 * (piece.first + piece.count)));
     for (std::size_t i = 0; i < piece.count; ++i) {
         Eigen::Vector4d p(0, 0, 0, 1);
         for (std::size_t c = 0; c < 3; ++c)

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,11 +14,12 @@ namespace meshtween {
 // One appearance of a mesh.
 struct GltfPart {
     std::size_t node = 0, mesh = 0;
-    int instance = -1;                   // of EXT_mesh_gpu_instancing; -1: the node itself
-    Eigen::Matrix4d world;               // of the node, or of its instance
-    Eigen::Matrix4d local;               // of the instance below the node
-    std::vector<Eigen::Matrix4d> joints; // in the rest pose: where each joint takes the vertices; empty without a skin
-    std::vector<double> weights;         // of its morph targets by default; empty where all are 0
+    int instance = -1;     // of EXT_mesh_gpu_instancing; -1: the node itself
+    Eigen::Matrix4d world; // of the node, or of its instance
+    Eigen::Matrix4d local; // of the instance below the node
+    // In the rest pose: where each joint takes the vertices; empty without a skin. Parts share them.
+    std::shared_ptr<const std::vector<Eigen::Matrix4d>> joints;
+    std::shared_ptr<const std::vector<double>> weights; // of its morph targets by default; empty where all are 0
 };
 
 // The parts in the order in which nodes are visited: the default scene's, children after their parents.
@@ -54,7 +56,8 @@ struct GltfPlacement {
 
 GltfPlacement gltf_placement(const GltfData& data, const GltfLayout& layout, const GltfPiece& piece);
 
-// Writes where the piece's vertices lie in the world to their places among all: x y z each.
+// Writes where the piece's vertices lie in the world to their places among all, x y z each; `coordinates` grow to hold
+// them.
 void gltf_positions(const GltfData& data, const GltfLayout& layout, const GltfPiece& piece,
                     const GltfPlacement& placement, std::vector<double>& coordinates);
 

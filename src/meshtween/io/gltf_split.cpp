@@ -9,6 +9,8 @@
 namespace meshtween {
 namespace {
 
+constexpr int most_compared = 1024; // more than any real vertex has: a file made to take long does not
+
 // Vertices that have one of each attribute; all materials together.
 struct Split {
     std::vector<int> vertices, corners;
@@ -19,7 +21,8 @@ Split split_vertices(const Mesh& mesh, const std::vector<CornerTexcoords>& texco
     Split result{std::vector<int>(static_cast<std::size_t>(mesh.positions.rows())), {}, mesh.triangles};
     std::iota(result.vertices.begin(), result.vertices.end(), 0);
     result.corners.assign(result.vertices.size(), -1);
-    std::vector<int> next(result.vertices.size(), -1); // the next copy of the same vertex
+    // A vertex's last copy, and the one before each.
+    std::vector<int> last = result.vertices, before(result.vertices.size(), -1);
     const auto alike = [&](int a, int b) {
         if (groups.of.data()[a] != groups.of.data()[b]) return false;
         return std::all_of(texcoords.begin(), texcoords.end(), [&](const CornerTexcoords& set) {
@@ -29,18 +32,21 @@ Split split_vertices(const Mesh& mesh, const std::vector<CornerTexcoords>& texco
     };
     for (int k = 0; k < static_cast<int>(mesh.triangles.size()); ++k) {
         const int vertex = mesh.triangles.data()[k];
-        auto at = static_cast<std::size_t>(vertex);
-        while (result.corners[at] >= 0 && !alike(result.corners[at], k)) {
-            if (next[at] < 0) {
-                next[at] = static_cast<int>(result.vertices.size());
-                result.vertices.push_back(vertex);
-                result.corners.push_back(-1);
-                next.push_back(-1);
-            }
-            at = static_cast<std::size_t>(next[at]);
+        int& newest = last[static_cast<std::size_t>(vertex)];
+        int found = newest;
+        for (int tries = 1; found >= 0; ++tries) {
+            const int corner = result.corners[static_cast<std::size_t>(found)];
+            if (corner < 0 || alike(corner, k)) break;
+            found = tries < most_compared ? before[static_cast<std::size_t>(found)] : -1;
         }
-        if (result.corners[at] < 0) result.corners[at] = k;
-        result.triangles.data()[k] = static_cast<int>(at);
+        if (found < 0) {
+            found = static_cast<int>(result.vertices.size());
+            before.push_back(std::exchange(newest, found));
+            result.vertices.push_back(vertex);
+            result.corners.push_back(-1);
+        }
+        if (result.corners[static_cast<std::size_t>(found)] < 0) result.corners[static_cast<std::size_t>(found)] = k;
+        result.triangles.data()[k] = found;
     }
     return result;
 }

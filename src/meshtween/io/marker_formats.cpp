@@ -2,6 +2,7 @@
 // triangles, IDAV Landmark's pts, meshes of vertices alone.
 #include "meshtween/io/cells.h"
 #include "meshtween/io/formats.h"
+#include "meshtween/io/json_limits.h"
 #include "meshtween/io/marker_files.h"
 #include "meshtween/io/mesh_file.h"
 #include "meshtween/io/output.h"
@@ -208,6 +209,7 @@ MarkerFile read_slicer_fcsv(std::string_view bytes, const std::filesystem::path&
 }
 
 MarkerFile read_marker_json(std::string_view bytes, const std::filesystem::path& path) {
+    if (const std::string_view trouble = json_trouble(bytes, true); !trouble.empty()) bad_file(path, trouble);
     ordered_json root;
     try {
         root = ordered_json::parse(bytes.begin(), bytes.end());

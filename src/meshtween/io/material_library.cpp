@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <set>
 #include <unordered_map>
 
 namespace meshtween {
@@ -51,12 +53,14 @@ std::string_view picture_name(Text& text) {
 
 class LibraryReader {
 public:
-    LibraryReader(MeshFile& file, fs::path library) : file_(file), library_(std::move(library)) {
+    explicit LibraryReader(MeshFile& file) : file_(file) {
         for (std::size_t i = 0; i < file.materials.size(); ++i) named_.emplace(file.materials[i].name, i);
     }
 
-    void read(std::vector<char>& known) {
-        const std::string bytes = read_whole(library_);
+    void read(const fs::path& library, std::vector<char>& known) {
+        const std::string bytes = read_whole(library);
+        library_ = library;
+        material_ = nullptr;
         Text text(bytes, library_);
         while (text.next_line()) {
             const std::string keyword = lower(text.word());
@@ -110,11 +114,9 @@ private:
                                               shown_name(material_->name), library_.filename().string()));
             return -1;
         }
-        const auto same = std::find_if(file_.images.begin(), file_.images.end(),
-                                       [&](const TextureImage& other) { return other.path == found; });
-        if (same != file_.images.end()) return static_cast<int>(same - file_.images.begin());
-        file_.images.push_back({std::string(name), mime_of(found), {}, found});
-        return static_cast<int>(file_.images.size()) - 1;
+        const auto [image, fresh] = images_.try_emplace(found, static_cast<int>(file_.images.size()));
+        if (fresh) file_.images.push_back({std::string(name), mime_of(found), {}, found});
+        return image->second;
     }
 
     static std::string shown_name(std::string_view name) { return std::string(name.substr(0, 80)); }
@@ -129,6 +131,7 @@ private:
     MeshFile& file_;
     fs::path library_;
     std::unordered_map<std::string, std::size_t> named_;
+    std::map<fs::path, int> images_;
     Material* material_ = nullptr;
 };
 
@@ -161,6 +164,8 @@ void read_libraries(MeshFile& file, const fs::path& folder) {
     std::vector<std::string_view> names;
     for (const std::string& statement : file.material_libraries)
         for (const std::string_view name : library_names(statement, folder)) names.push_back(name);
+    LibraryReader reader(file);
+    std::set<fs::path> read; // however often and by what names a library is named
     for (const std::string_view name : names) {
         const fs::path library = find_companion(folder, name);
         if (library.empty()) {
@@ -170,8 +175,10 @@ void read_libraries(MeshFile& file, const fs::path& folder) {
                                              name));
             continue;
         }
+        std::error_code ignored;
+        if (!read.insert(fs::canonical(library, ignored)).second) continue;
         try {
-            LibraryReader(file, library).read(known);
+            reader.read(library, known);
         } catch (const Error& error) {
             missing = true;
             file.notes.emplace_back(error.what());

@@ -13,6 +13,7 @@ namespace meshtween {
 namespace {
 
 constexpr double same_direction = 0.9998; // a degree: more than rounding to bytes, less than an edge
+constexpr int most_compared = 1024;       // more than any real place has: a file made to take long does not
 
 // For each vertex the number of its place, from 0; equal coordinates are one place.
 std::vector<int> places(const Points& positions) {
@@ -43,24 +44,25 @@ NormalGroups normal_groups(const Points& positions, const Triangles& vertices, c
     NormalGroups result;
     result.of.resize(vertices.rows(), 3);
     std::vector<int> last(place.size(), -1), before; // a place's last group, and the one before each
-    std::vector<Point> direction;                    // of a group; nought: a vertex of which the file says nothing
+    std::vector<int> silent(place.size(), -1);       // a vertex's group of which the file says nothing
+    std::vector<Point> direction;                    // of a group; nought: the file says nothing
     for (Eigen::Index t = 0; t < vertices.rows(); ++t)
         for (int c = 0; c < 3; ++c) {
             const int vertex = vertices(t, c);
             const Point normal = corner_normals.row(3 * t + c).stableNormalized();
-            const bool silent = !(normal.squaredNorm() > 0.5);
-            int& newest = last[static_cast<std::size_t>(place[static_cast<std::size_t>(vertex)])];
+            const bool is_silent = !(normal.squaredNorm() > 0.5);
+            int& newest = is_silent ? silent[static_cast<std::size_t>(vertex)]
+                                    : last[static_cast<std::size_t>(place[static_cast<std::size_t>(vertex)])];
             int found = newest;
-            for (; found >= 0; found = before[static_cast<std::size_t>(found)]) {
+            for (int tries = 1; found >= 0 && !is_silent; ++tries) {
                 const auto g = static_cast<std::size_t>(found);
-                if (silent ? direction[g].isZero() && result.vertices[g] == vertex
-                           : direction[g].dot(normal) > same_direction)
-                    break;
+                if (direction[g].dot(normal) > same_direction) break;
+                found = tries < most_compared ? before[g] : -1;
             }
             if (found < 0) {
                 found = static_cast<int>(before.size());
                 before.push_back(std::exchange(newest, found));
-                direction.push_back(silent ? Point(0, 0, 0) : normal);
+                direction.push_back(is_silent ? Point(0, 0, 0) : normal);
                 result.vertices.push_back(vertex);
             }
             result.of(t, c) = found;

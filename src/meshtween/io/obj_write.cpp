@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 namespace meshtween {
 namespace {
@@ -27,12 +28,29 @@ void replace_row(Patch& patch, Text& text, const Points& values, Eigen::Index ro
     }
 }
 
+// Carries each library once, however often it is named.
+class Libraries {
+public:
+    explicit Libraries(const Move& move) : move_(move) {}
+
+    const std::string& carry(std::string_view name) {
+        auto known = carried_.find(name);
+        if (known == carried_.end()) known = carried_.emplace(name, carry_library(move_, name)).first;
+        return known->second;
+    }
+
+private:
+    const Move& move_;
+    std::map<std::string, std::string, std::less<>> carried_;
+};
+
 void rewrite(const Mesh& mesh, const Move& move, std::ostream& stream) {
     const MeshFile& file = *mesh.file;
     const bool moved = shape_key(mesh) != file.shape;
     const Points normals = moved && file.normals.rows() > 0 ? file_normals(mesh) : Points();
     Text text(file.bytes, file.path);
     Patch patch(file.bytes, stream);
+    Libraries libraries(move);
     Eigen::Index vertex = 0, normal = 0;
     for (std::string_view keyword; next_statement(text, keyword);) {
         if (keyword == "v" && moved)
@@ -41,8 +59,7 @@ void rewrite(const Mesh& mesh, const Move& move, std::ostream& stream) {
             replace_row<float>(patch, text, normals, normal++);
         else if (keyword == "mtllib")
             for (const std::string_view name : library_names(text.rest(), move.from))
-                if (const std::string carried = carry_library(move, name); carried != name)
-                    patch.replace(name, carried);
+                if (const std::string& carried = libraries.carry(name); carried != name) patch.replace(name, carried);
     }
     patch.finish();
 }
@@ -132,9 +149,9 @@ std::vector<std::string> carry_libraries(const Mesh& mesh, const fs::path& path,
     std::vector<std::string> result;
     if (!is_described(mesh)) return result;
     const MeshFile& file = *mesh.file;
+    Libraries libraries(move);
     for (const std::string& statement : file.material_libraries)
-        for (const std::string_view name : library_names(statement, move.from))
-            result.push_back(carry_library(move, name));
+        for (const std::string_view name : library_names(statement, move.from)) result.push_back(libraries.carry(name));
     if (!result.empty() || file.materials.empty() || file.format == ".obj" || !fs::is_directory(move.to)) return result;
     std::vector<std::string> images;
     for (std::size_t i = 0; i < file.images.size(); ++i) images.push_back(carry_image(move, file.images[i], i));

@@ -5,6 +5,7 @@
 
 #include <pugixml.hpp>
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -26,6 +27,7 @@ struct VtpFile {
     bool appended_base64 = false;
     VtpEncoding encoding;
     std::vector<pugi::xml_node> pieces;
+    mutable std::uint64_t read = 0; // bytes of the appended data so far, as they are stored
 };
 
 // Throws Error(file): no XML, another kind of data, a compression that is not read. `bytes` must stay.
@@ -39,7 +41,8 @@ pugi::xml_node vtp_array(pugi::xml_node parent, const char* name);
 // The text of this name in the file's field data; empty where there is none. Throws Error(file) as above.
 std::string vtp_field_text(std::string_view bytes, const std::filesystem::path& path, const char* name);
 
-// An array's numbers. Throws Error(file): damaged, or other than `expected` where that is not npos.
+// An array's numbers. Throws Error(file): damaged, or other than `expected` where that is not any_count; what is
+// compressed is inflated only where its header promises as many.
 constexpr std::size_t any_count = static_cast<std::size_t>(-1);
 std::vector<double> vtp_numbers(const VtpFile& file, pugi::xml_node array, std::string_view what, std::size_t expected);
 

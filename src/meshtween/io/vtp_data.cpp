@@ -15,7 +15,8 @@
 namespace meshtween {
 namespace {
 
-constexpr std::size_t block_size = 32768;      // as VTK writes them
+constexpr std::size_t block_size = 32768; // as VTK writes them
+constexpr std::uint64_t longest_text = 1 << 20;
 constexpr std::uint64_t most_expansion = 1040; // zlib shrinks nothing more than 1032 times
 
 void reverse_each(std::string& bytes, std::size_t size) {
@@ -28,10 +29,17 @@ void reverse_each(std::string& bytes, std::size_t size) {
 struct Stored {
     const VtpFile& file;
     std::string_view data;
-    bool base64;
+    bool base64, appended;
     std::string what;
 
+    std::size_t number_size, expected; // of the array: bytes of a number, how many there should be or any_count
+
     [[noreturn]] void fail(std::string_view why) const { bad_file(file.path, fmt::format("{}: {}", what, why)); }
+
+    [[noreturn]] void fail_count(std::uint64_t count) const {
+        if (expected == any_count) fail(fmt::format("is a text of {} letters, too long", count));
+        fail(fmt::format("holds {} numbers, but {} are promised; the file is truncated or damaged", count, expected));
+    }
 
     // The first `size` bytes.
     std::string first(std::uint64_t size) const {
@@ -57,6 +65,14 @@ struct Stored {
     }
 };
 
+// Arrays lie one after the other: a file that names the same bytes for many is refused before they fill the memory.
+void count_read(const Stored& stored, std::uint64_t bytes) {
+    if (!stored.appended) return;
+    stored.file.read += bytes;
+    if (stored.file.read > 2 * stored.file.appended.size())
+        stored.fail("the arrays of the appended data lie over one another; the file is damaged");
+}
+
 std::string inflated(const Stored& stored) {
     const std::size_t size = stored.file.encoding.header_size;
     const std::uint64_t blocks = stored.header(1)[0];
@@ -72,14 +88,22 @@ std::string inflated(const Stored& stored) {
                 fmt::format("promises a block of {} bytes in {}; the file is damaged", header[i], stored.data.size()));
         packed += header[i];
     }
+    std::uint64_t whole = 0;
+    for (std::size_t i = 0; i < blocks; ++i) {
+        const std::uint64_t block = i + 1 == blocks && header[2] != 0 ? header[2] : header[1];
+        if (block > most_expansion * packed - whole)
+            stored.fail("its blocks promise more than they can hold; the file is damaged");
+        whole += block;
+    }
+    if (stored.expected == any_count ? whole > longest_text : whole / stored.number_size != stored.expected)
+        stored.fail_count(whole / stored.number_size);
+    count_read(stored, packed);
     const std::string bytes = stored.first(packed);
     std::string result;
     std::size_t at = (3 + blocks) * size;
     for (std::size_t i = 0; i < blocks; ++i) {
         uLongf got = i + 1 == blocks && header[2] != 0 ? header[2] : header[1];
         const uLongf wanted = got;
-        if (wanted > most_expansion * bytes.size() - result.size())
-            stored.fail("its blocks promise more than they can hold; the file is damaged");
         result.resize(result.size() + wanted);
         char* to = result.data() + result.size() - wanted;
         const int status = uncompress(reinterpret_cast<Bytef*>(to), &got,
@@ -98,6 +122,7 @@ std::string stored_bytes(const Stored& stored) {
     if (size > stored.data.size())
         stored.fail(fmt::format("its header promises {} bytes, but only {} are left; the file is truncated or damaged",
                                 size, stored.data.size()));
+    count_read(stored, size);
     return stored.first(stored.file.encoding.header_size + size).substr(stored.file.encoding.header_size);
 }
 
@@ -157,7 +182,7 @@ std::vector<double> vtp_numbers(const VtpFile& file, pugi::xml_node array, std::
         if (size == 0)
             bad_file(file.path,
                      fmt::format("{}: '{}' is no type of numbers", what, shown(array.attribute("type").value())));
-        Stored stored{file, array.child_value(), true, std::string(what)};
+        Stored stored{file, array.child_value(), true, false, std::string(what), size, expected};
         if (format == "appended") {
             const unsigned long long offset = array.attribute("offset").as_ullong();
             if (offset >= file.appended.size())
@@ -167,6 +192,7 @@ std::vector<double> vtp_numbers(const VtpFile& file, pugi::xml_node array, std::
                                 offset, file.appended.size()));
             stored.data = file.appended.substr(offset);
             stored.base64 = file.appended_base64;
+            stored.appended = true;
         }
         std::string bytes = stored_bytes(stored);
         if (file.encoding.big_endian) reverse_each(bytes, size);

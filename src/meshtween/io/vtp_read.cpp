@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace meshtween {
 namespace {
@@ -88,8 +89,12 @@ private:
             bad_file(file_.path,
                      fmt::format("{} have no connectivity and offsets; the file is truncated or damaged", what));
         const std::vector<double> ends = vtp_numbers(file_, ends_array, fmt::format("the offsets of {}", what), count);
-        const std::vector<double> corners =
-            vtp_numbers(file_, corners_array, fmt::format("the corners of {}", what), any_count);
+        const bool text = std::string_view(corners_array.attribute("format").as_string("ascii")) == "ascii";
+        const double last = ends.back();
+        const std::vector<double> corners = vtp_numbers(file_, corners_array, fmt::format("the corners of {}", what),
+                                                        text                       ? any_count
+                                                        : last >= 0 && last < 1e15 ? static_cast<std::size_t>(last)
+                                                                                   : 0);
         std::size_t begin = 0;
         std::vector<std::int64_t> cell;
         for (std::size_t i = 0; i < ends.size(); ++i) {
@@ -132,13 +137,13 @@ private:
 
     void only_here(std::string_view kind, pugi::xml_node array) {
         std::string name = fmt::format("the {} '{}'", kind, shown(array.attribute("Name").value()));
-        std::vector<std::string>& known = surface_.mesh.file.only_here;
-        if (std::find(known.begin(), known.end(), name) == known.end()) known.push_back(std::move(name));
+        if (known_.insert(name).second) surface_.mesh.file.only_here.push_back(std::move(name));
     }
 
     const VtpFile& file_;
     VtkSurface surface_;
     std::map<std::string, VtkArray> arrays_; // of points, by name
+    std::set<std::string> known_;            // what is told to be only here
 };
 
 } // namespace
