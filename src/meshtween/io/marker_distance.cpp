@@ -28,7 +28,7 @@ public:
         auto step = static_cast<Eigen::Index>(0.618 * static_cast<double>(count)) + 1;
         while (std::gcd(step, count) != 1) ++step; // so that all are met, neighbours long after each other
         for (Eigen::Index i = 0; i < std::min(count, most); ++i)
-            triangles_.push_back(static_cast<Eigen::Index>(i * step % count));
+            balls_.push_back(ball_around(static_cast<Eigen::Index>(i * step % count)));
         const Eigen::AlignedBox3d box = bounding_box(mesh.positions, mesh.triangles);
         low_ = box.min().transpose();
         high_ = box.max().transpose();
@@ -39,8 +39,9 @@ public:
     bool is_near(const Point& point) const {
         const double reach = far_away * diagonal_;
         if (((point - high_).array() > reach).any() || ((low_ - point).array() > reach).any()) return false;
-        return std::any_of(triangles_.begin(), triangles_.end(),
-                           [&](Eigen::Index t) { return distance_to(t, point) <= reach; });
+        return std::any_of(balls_.begin(), balls_.end(), [&](const Ball& ball) {
+            return ball.distance(point) <= reach && distance_to(ball.triangle, point) <= reach;
+        });
     }
 
     double diagonal() const { return diagonal_; }
@@ -48,11 +49,28 @@ public:
     // Of the diagonal.
     double distance(const Point& point) const {
         double least = std::numeric_limits<double>::infinity();
-        for (const Eigen::Index t : triangles_) least = std::min(least, distance_to(t, point));
+        for (const Ball& ball : balls_)
+            if (ball.distance(point) < least) least = std::min(least, distance_to(ball.triangle, point));
         return least / diagonal_;
     }
 
 private:
+    // Around a triangle: no place of it is nearer.
+    struct Ball {
+        Eigen::Index triangle;
+        Point centre;
+        double radius;
+        double distance(const Point& point) const { return (point - centre).norm() - radius; }
+    };
+
+    Ball ball_around(Eigen::Index t) const {
+        const auto corner = [&](int k) -> Point { return mesh_.positions.row(mesh_.triangles(t, k)); };
+        const Point centre = (corner(0) + corner(1) + corner(2)) / 3;
+        double radius = 0;
+        for (int k = 0; k < 3; ++k) radius = std::max(radius, (corner(k) - centre).norm());
+        return {t, centre, radius * (1 + 1e-9)};
+    }
+
     double distance_to(Eigen::Index t, const Point& point) const {
         const auto corner = [&](int k) -> Point { return mesh_.positions.row(mesh_.triangles(t, k)); };
         return std::sqrt(place_on_triangle(point, corner(0), corner(1), corner(2)).squared_distance);
@@ -60,7 +78,7 @@ private:
 
     const Mesh& mesh_;
     double diagonal_ = 0; // of the vertices of faces
-    std::vector<Eigen::Index> triangles_;
+    std::vector<Ball> balls_;
     Point low_, high_;
 };
 
