@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <queue>
 #include <unordered_map>
 
@@ -114,16 +115,14 @@ struct Movable {
     std::vector<int> triangles;      // those of the vertices
 };
 
-double extent(const Points& shape, const Triangles& triangles, const std::vector<int>& which) {
-    Point low = Point::Constant(std::numeric_limits<double>::infinity()), high = -low;
-    for (const int t : which)
-        for (int k = 0; k < 3; ++k) {
-            low = low.cwiseMin(shape.row(triangles(t, k)));
-            high = high.cwiseMax(shape.row(triangles(t, k)));
-        }
-    return which.empty() ? 0 : (high - low).norm();
+// Of a disk of the triangles' area: a long thin contact, such as lips over teeth, is no wider than it is thick.
+double radius(const Points& shape, const Triangles& triangles, const std::vector<int>& which) {
+    double area = 0;
+    for (const int t : which) area += triangle_area(shape, triangles, t);
+    return std::sqrt(area / std::numbers::pi);
 }
 
+constexpr int patience = 4;  // contacts, the deepest first: where all are too deep, the others are as well
 constexpr double gentle = 4; // a side fades out over so many times the way that it is moved
 
 Movable movable(const Film& film, const Contact& contact, const Topology& top, double reach) {
@@ -131,7 +130,7 @@ Movable movable(const Film& film, const Contact& contact, const Topology& top, d
     Movable result;
     std::unordered_map<int, double> from[2];
     for (int side = 0; side < 2; ++side) {
-        result.plateau[side] = extent(shape, film.triangles, contact.sides[side]) / 2;
+        result.plateau[side] = radius(shape, film.triangles, contact.sides[side]);
         const double most = result.plateau[side] + std::max(result.plateau[side], gentle * reach);
         from[side] = distances(shape, film.triangles, top.neighbours, contact.sides[side], most);
         for (const auto& [i, d] : from[side]) result.vertices.push_back(i);
@@ -321,7 +320,8 @@ Found search(Place& place, const Contact& contact, double reach, int most) {
                  bump_over(time(contact.first_frame) - step / 2, time(contact.last_frame) + step / 2)};
     best.cuts = place.cuts_in_all(best.bend);
     const std::vector<Point> ways = directions(film, contact);
-    for (const double share : {0.25, 0.5, 1.0}) {
+    const std::size_t before = best.cuts, enough = before / 10, bearable = before / 2;
+    for (const double share : {1.0 / 16, 0.125, 0.25, 0.5, 1.0}) { // a small one that mends nearly all is the best
         const double size = 2 * reach * share;
         Bend bend{field(place.part, size), {}, best.bend.bump};
         std::vector<std::pair<std::size_t, std::size_t>> order; // cuts in the worst frame, direction
@@ -335,8 +335,9 @@ Found search(Place& place, const Contact& contact, double reach, int most) {
             bend.direction = ways[order[k].second];
             if (const std::size_t cuts = place.cuts_in_all(bend); cuts < best.cuts) best = {bend, size, cuts};
         }
-        if (best.cuts == 0 || place.trials >= most) break;
+        if (best.cuts <= enough || place.trials >= most) break;
     }
+    if (best.cuts > bearable) best.size = 0; // it would cost more than it mends
     if (best.size > 0 && place.trials < most) shrink(best, place);
     return best;
 }
@@ -366,9 +367,12 @@ void bend_contacts(Repaired& result, Film& film, const Interpolant& original, co
     const auto deepest = [](const Contact& c) { return c.cuts[static_cast<std::size_t>(c.worst_frame)]; };
     std::stable_sort(found.begin(), found.end(),
                      [&](const Contact& a, const Contact& b) { return deepest(a) > deepest(b); });
+    int in_vain = 0; // in a row
     for (const Contact& contact : found) {
         const int left = options.trials - result.report.trials;
-        if (contact.at_an_end || contact.fold || left <= 0) continue;
+        if (in_vain == patience || left <= 0) break;
+        if (contact.at_an_end || contact.fold) continue;
+        ++in_vain;
         const Movable part = movable(film, contact, top, reach);
         Place place(film, part, reach);
         const Found best = search(place, contact, reach, left);
@@ -381,6 +385,7 @@ void bend_contacts(Repaired& result, Film& film, const Interpolant& original, co
         result.report.moved = std::max(result.report.moved, moved);
         for (std::size_t f = 0; f < film.times.size(); ++f) film.shapes[f] = result.path.at(film.times[f]);
         ++result.report.contacts;
+        in_vain = 0;
     }
 }
 
