@@ -62,6 +62,21 @@ void add_fit_flags(CLI::App& verb, FitFlags& flags) {
     verb.add_flag_callback(
         "--no-symmetry", [&flags] { flags.options.symmetry = false; },
         "Do not give markers twins on the other side where source and target are their own mirror images");
+    static const std::map<std::string, PartsMode> modes{
+        {"auto", PartsMode::automatic}, {"follow", PartsMode::follow}, {"fit", PartsMode::fit}};
+    verb.add_option("--parts", flags.options.parts,
+                    "Of the source's loose parts without a marker: auto carries small ones along with the surface "
+                    "around them, follow all but the largest, fit none")
+        ->transform(CLI::CheckedTransformer(modes))
+        ->option_text("auto|follow|fit [auto]");
+    static const std::map<std::string, TargetLayer> layers{
+        {"outer", TargetLayer::outer}, {"inner", TargetLayer::inner}, {"both", TargetLayer::both}};
+    verb.add_option("--layer", flags.options.layer,
+                    "Which to fit to where the target has one surface over another, as cloth over skin")
+        ->transform(CLI::CheckedTransformer(layers))
+        ->option_text("outer|inner|both [outer]");
+    verb.add_flag("--keep-parts", flags.options.keep_parts,
+                  "Fit to small parts of the target without a marker as well, which are left out as clutter otherwise");
     verb.add_flag("--on-surface", flags.options.on_surface,
                   "Leave every vertex exactly on the target; else each is lifted by so much that the triangles between "
                   "them lie on it in the mean");
@@ -160,6 +175,10 @@ Fitted run_fit(const Mesh& source, const Mesh& target, const MarkerPairs& marker
     const Quality quality = measure(fitted.source, both, {}, placed, seed);
     keep_going(progress, 0.9, "finding places");
     fitted.map = correspondence(both);
+    set_aside(fitted.map, result.carried);
+    const AnsweredQuality answered =
+        answered_quality(fitted.source, both, quality, fitted.map.border, result.left_out, seed);
+    fitted.report["answered"] = to_json(answered);
     fitted.report.update(fit_places(fitted.source, fitted.mesh, target, result, fitted.map, quality, placed));
     fitted.report["quality"] = to_json(quality);
     stop_if_interrupted();
@@ -178,13 +197,15 @@ Fitted run_fit(const Mesh& source, const Mesh& target, const MarkerPairs& marker
         console.note(fmt::format("beyond: the target ends before {} of {} vertices: nothing on it answers to them, and "
                                  "they follow the rest (--weights says which)",
                                  beyond, fitted.mesh.positions.rows()));
-    const std::ptrdiff_t flips = std::ssize(without_beyond(fitted.mesh.triangles, fitted.map.border, quality.flipped));
     console.note(fmt::format("fit: {:.4f} % to the target, {:.4f} % back, {} flipped of {} faces, {} cuts, {:.2f} s",
-                             quality.fitted_to_target.mean, quality.target_to_fitted.mean, flips, quality.triangles,
-                             quality.cuts.size(), seconds));
-    if (1000 * flips > quality.triangles)
-        console.warn(
-            "the mesh is folded in places (guards and worst in --report say where); a marker that disagrees with "
-            "its neighbours folds it, a few more around the place unfold it");
+                             answered.fitted_to_target.mean, answered.target_to_fitted.mean, answered.flipped.size(),
+                             answered.faces, answered.cuts, seconds));
+    if (1000 * std::ssize(answered.flipped) > answered.faces)
+        console.warn(placed.empty()
+                         ? "the mesh is folded in places (guards and worst in --report say where); a few markers "
+                           "around them unfold it"
+                         : "the mesh is folded in places (guards and worst in --report say where); a marker "
+                           "that disagrees with its neighbours folds it, a few more around the place unfold "
+                           "it");
     return fitted;
 }

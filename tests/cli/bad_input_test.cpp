@@ -148,6 +148,8 @@ const std::vector<Row> rows = {
      fit_with("#/good.obj", "#/m.csv"),
      3,
      {"m.csv", "no usable pair"}},
+    {"PartsUnknown", {}, and_then(fit_with("#/good.obj"), {"--parts", "some"}), 1, {"--parts"}},
+    {"LayerUnknown", {}, and_then(fit_with("#/good.obj"), {"--layer", "middle"}), 1, {"--layer"}},
     {"NegativeMarkerWeight", {}, and_then(fit_with("#/good.obj"), {"--marker-weight", "-1"}), 1, {"--marker-weight"}},
     {"MarkerWeightNaN", {}, and_then(fit_with("#/good.obj"), {"--marker-weight", "nan"}), 1, {"--marker-weight"}},
     {"MarkerWeightTooLarge", {}, and_then(fit_with("#/good.obj"), {"--marker-weight", "1e9"}), 1, {"10"}},

@@ -140,12 +140,16 @@ Fitted examined(const OpenMesh& source, const OpenMesh& target, const FitResult&
     keep_going(progress, 0, "measuring");
     Fitted fitted = shown(source, target, result.positions);
     keep_going(progress, 0.1, "measuring");
+    set_aside(fitted.map, result.carried);
     fitted.summary = meshtween::to_json(result);
     fitted.summary["of"] = fitted.of;
     fitted.summary["mark"] = mark_of(markers);
     const std::vector<Marker> placed = place_markers(complete_pairs(markers), source.mesh);
-    const Quality quality = measure(source.mesh, fitted.mesh, target.mesh, {}, placed);
+    const Comparison both(fitted.mesh, target.mesh);
+    const Quality quality = measure(source.mesh, both, {}, placed);
     fitted.summary["quality"] = meshtween::to_json(quality);
+    fitted.summary["answered"] =
+        meshtween::to_json(answered_quality(source.mesh, both, quality, fitted.map.border, result.left_out));
     keep_going(progress, 0.7, "finding places");
     fitted.summary["marker_errors"] = marker_errors(source, target, fitted.mesh, markers);
     fitted.summary.update(

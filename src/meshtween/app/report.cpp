@@ -101,6 +101,14 @@ Json to_json(const Quality& q) {
     return json;
 }
 
+Json to_json(const AnsweredQuality& quality) {
+    return {{"faces", quality.faces},
+            {"fitted_to_target", to_json(quality.fitted_to_target)},
+            {"target_to_fitted", to_json(quality.target_to_fitted)},
+            {"flipped_faces", quality.flipped.size()},
+            {"self_intersections", quality.cuts}};
+}
+
 Json to_json(const FitResult& result) {
     return {{"end", name_of(result.end)},
             {"rounds", result.rounds},
@@ -108,6 +116,8 @@ Json to_json(const FitResult& result) {
             {"history", result.history},
             {"refused_steps", result.refused_steps},
             {"mirror_twins", result.twins},
+            {"carried_vertices", result.carried.size()},
+            {"target_faces_left_out", result.left_out.size()},
             {"notes", result.notes}};
 }
 

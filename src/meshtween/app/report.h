@@ -20,6 +20,7 @@ std::string_view name_of(Severity severity); // "note", "warning" or "error"
 
 Json to_json(const Statistics& s);
 Json to_json(const Quality& quality);
+Json to_json(const AnsweredQuality& quality);
 Json to_json(const FitResult& result);
 Json to_json(const std::vector<Finding>& findings);
 // Counts, extent, area, volume and findings, which are those of check().

@@ -66,11 +66,11 @@ Points Similarity::operator()(const Points& points) const {
     return ((scale * points * rotation.transpose()).rowwise() + translation).eval();
 }
 
-Similarity align(const Points& from, const Points& to) {
+namespace {
+
+// Of matching points around the middles a and b.
+Similarity around(const Point& a, const Points& x, const Point& b, const Points& y) {
     Similarity s;
-    if (from.rows() == 0) return s;
-    const Point a = from.colwise().mean(), b = to.colwise().mean();
-    const Points x = from.rowwise() - a, y = to.rowwise() - b;
     const double spread = x.squaredNorm();
     if (spread > 0) {
         const Eigen::JacobiSVD<Matrix3d> svd(y.transpose() * x, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -86,6 +86,22 @@ Similarity align(const Points& from, const Points& to) {
     }
     s.translation = b - s.scale * a * s.rotation.transpose();
     return s;
+}
+
+} // namespace
+
+Similarity align(const Points& from, const Points& to) {
+    if (from.rows() == 0) return {};
+    const Point a = from.colwise().mean(), b = to.colwise().mean();
+    return around(a, from.rowwise() - a, b, to.rowwise() - b);
+}
+
+Similarity align(const Points& from, const Points& to, const Eigen::VectorXd& weights) {
+    const double whole = weights.sum();
+    if (!(whole > 0)) return align(from, to);
+    const Point a = weights.transpose() * from / whole, b = weights.transpose() * to / whole;
+    const Eigen::VectorXd roots = weights.cwiseSqrt();
+    return around(a, roots.asDiagonal() * (from.rowwise() - a), b, roots.asDiagonal() * (to.rowwise() - b));
 }
 
 Similarity align_axes(const Points& from, const Triangles& from_triangles, const Points& to,

@@ -17,6 +17,7 @@ struct Similarity {
 // The least-squares similarity of matching points, both k x 3. With fewer than 3 points, or points on one line, what
 // they do not say is taken as: no turn beyond the least one; scale 1 with a single point.
 Similarity align(const Points& from, const Points& to);
+Similarity align(const Points& from, const Points& to, const Eigen::VectorXd& weights); // k, none negative
 
 // A guess where nothing matches: centres and areas made equal, and no turn, or principal axes made equal where that
 // brings the surfaces clearly closer (both ways, by samples), the axes' directions chosen so that they lie closest.

@@ -131,6 +131,13 @@ Correspondence correspondence(const Comparison& both) {
     return map;
 }
 
+void set_aside(Correspondence& map, const std::vector<int>& vertices) {
+    for (const int v : vertices) {
+        map.border[idx(v)] = 2;
+        map.trust[idx(v)] = 0;
+    }
+}
+
 void write_map(const Correspondence& map, const std::filesystem::path& path) {
     write_whole(path, [&](std::ostream& stream) {
         TextOut out(stream);

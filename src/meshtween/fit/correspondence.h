@@ -21,14 +21,16 @@ struct Correspondence {
     std::vector<double> agreement;    // cosine between the vertex's normal and the target's triangle's: 1 the same way
     // 1: the target ends before the vertex, so that nothing there answers to it. Its place is on the target's border
     // and the vertex not on its own, or it lies off an open target and has no counterpart (counterpart.h).
+    // 2: it belongs to a loose part, which was carried along (set_aside).
     std::vector<char> border;
     std::vector<double> uncovered; // furthest of the target's vertices and triangle centres for which this vertex
                                    // would have to answer (those closest to its triangles)
     Points uncovered_at;           // n x 3: that point of the target; the vertex itself where there is none
-    std::vector<double> trust;     // 0..1: nought on a border or where the normals oppose, else the agreement times
-                                   // exp(-(d / 0.005)^2), for the distance and for the uncovered
+    std::vector<double> trust; // 0..1: nought where `border` is not, or where the normals oppose, else the agreement
+                               // times exp(-(d / 0.005)^2), for the distance and for the uncovered
 };
 Correspondence correspondence(const Comparison& both);
+void set_aside(Correspondence& map, const std::vector<int>& vertices);
 inline Correspondence correspondence(const Mesh& fitted, const Mesh& target) {
     return correspondence(Comparison(fitted, target));
 }

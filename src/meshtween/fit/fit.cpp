@@ -1,15 +1,23 @@
 #include "meshtween/fit/fit.h"
 
 #include "meshtween/core/error.h"
+#include "meshtween/fit/fitted_source.h"
+#include "meshtween/fit/fitted_target.h"
+#include "meshtween/fit/marker_doubts.h"
 #include "meshtween/fit/meet_markers.h"
 #include "meshtween/fit/paper_fit.h"
 #include "meshtween/fit/surface_fit.h"
+#include "meshtween/geometry/genus.h"
 #include "meshtween/geometry/measure.h"
 #include "meshtween/io/seams.h"
+#include "meshtween/io/text.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <climits>
 #include <cmath>
+#include <optional>
 
 namespace meshtween {
 namespace {
@@ -73,11 +81,46 @@ FitResult fit_by_method(const Mesh& source, const Mesh& target, std::span<const 
     throw Error(ErrorKind::argument, "no such way to fit");
 }
 
+// Empty where both shapes have as many handles.
+std::string told_handles(const Mesh& source, const Mesh& target) {
+    const std::optional<long> own = handles(source.positions, source.triangles),
+                              other = handles(target.positions, target.triangles);
+    if (!own || !other || *own == *other) return "";
+    return fmt::format(
+        "the source has {} and the target {}: no mesh follows both; where one is lacking, look whether a "
+        "skin closes it well",
+        counted(static_cast<std::size_t>(*own), "handle"), counted(static_cast<std::size_t>(*other), "handle"));
+}
+
+std::vector<std::string> told_doubts(const Mesh& source, std::span<const Marker> markers) {
+    Points own(std::ssize(markers), 3), other(std::ssize(markers), 3);
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < markers.size(); ++k) {
+        own.row(static_cast<Index>(k)) = position(source.positions, source.triangles, markers[k].source);
+        other.row(static_cast<Index>(k)) = markers[k].target;
+        names.push_back(markers[k].name);
+    }
+    return marker_doubts(own, other, names);
+}
+
+void tell_faults(FitResult& result) {
+    if (!result.flipped.empty())
+        result.notes.push_back(fmt::format("{} triangles look into the target's surface, the first of them {}",
+                                           result.flipped.size(), result.flipped.front()));
+    if (result.cuts.empty()) return;
+    std::array<int, 2> first{INT_MAX, INT_MAX};
+    for (const auto& [s, t] : result.cuts) first = std::min(first, {std::min(s, t), std::max(s, t)});
+    result.notes.push_back(fmt::format("{} pairs of triangles cut each other where neither shape does, the first of "
+                                       "them {} and {}",
+                                       result.cuts.size(), first[0], first[1]));
+}
+
 // The file's numbering back, where seams were welded.
 void expand(FitResult& result, const Weld& seams) {
     if (!seams.any()) return;
     result.positions = seams.expanded(result.positions);
     result.refused = seams.files_vertices(result.refused);
+    result.carried = seams.files_vertices(result.carried);
 }
 
 } // namespace
@@ -89,11 +132,34 @@ FitResult fit(const Mesh& source, const Mesh& target, std::span<const Marker> ma
     check_mesh(target, "target");
     check_markers(source, markers);
     const WholeMesh from(source, options.weld), to(target, options.weld);
+    const SoundFaces from_faces = sound_faces(from.mesh().positions, from.mesh().triangles),
+                     to_faces = sound_faces(to.mesh().positions, to.mesh().triangles);
+    const InnerFaces inner_walls =
+        inner_faces(from.mesh().positions, from_faces, to.mesh().positions, to_faces, options.layer);
+    const FittedSource part(from.mesh(), from_faces, markers, options, inner_walls.source);
+    const FittedTarget onto(to.mesh(), to_faces, markers, options, inner_walls.target);
     FitOptions inner = options;
-    if (options.watch && from.seams.any())
-        inner.watch = [&](const Points& x) { options.watch(from.seams.expanded(x)); };
-    FitResult result = fit_by_method(from.mesh(), to.mesh(), markers, inner, progress);
-    if (result.end != FitEnd::cancelled && options.markers_exact) meet_markers(result, from.mesh(), to.mesh(), markers);
+    if (options.watch && (from.seams.any() || !part.all))
+        inner.watch = [&](const Points& x) {
+            const Points whole = part.whole(x);
+            options.watch(from.seams.any() ? from.seams.expanded(whole) : whole);
+        };
+    const std::string genus = told_handles(part.mesh(), onto.mesh());
+    FitResult result = fit_by_method(part.mesh(), onto.mesh(), part.markers, inner, progress);
+    if (result.end != FitEnd::cancelled && options.markers_exact)
+        meet_markers(result, part.mesh(), onto.mesh(), part.markers);
+    part.give_back(result);
+    const std::vector<std::string> doubts = told_doubts(from.mesh(), markers);
+    result.notes.insert(result.notes.begin(), doubts.begin(), doubts.end());
+    if (doubts.empty()) // else they are missed because of those
+        for (const auto& [off, name] : result.missed)
+            result.notes.push_back(
+                fmt::format("marker '{}' ends {:.1f} % of the diagonal from its place: is it right?", name, 100 * off));
+    result.left_out = onto.left_out;
+    if (!genus.empty()) result.notes.insert(result.notes.begin(), genus);
+    for (const auto* notes : {&onto.notes, &inner_walls.notes})
+        result.notes.insert(result.notes.begin(), notes->begin(), notes->end());
+    tell_faults(result);
     expand(result, from.seams);
     return result;
 }

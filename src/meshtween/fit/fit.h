@@ -3,8 +3,11 @@
 
 #include "meshtween/core/mesh.h"
 #include "meshtween/core/progress.h"
+#include "meshtween/fit/inner_faces.h"
+#include "meshtween/fit/loose_parts.h"
 #include "meshtween/fit/rbf.h"
 
+#include <array>
 #include <functional>
 #include <span>
 #include <string>
@@ -28,7 +31,10 @@ struct FitOptions {
     bool on_surface = false;   // surface: each vertex stays on the target; else they are lifted by so much that the
                                // triangles between them lie on it in the mean (lift.h)
     bool symmetry = true; // surface: where both shapes are their own mirror images, markers have twins (marker_twins.h)
-    bool markers_exact = false; // each marker's point ends on its place, to 1e-9 (meet_markers.h)
+    bool markers_exact = false;             // each marker's point ends on its place, to 1e-9 (meet_markers.h)
+    PartsMode parts = PartsMode::automatic; // what becomes of loose parts without a marker (loose_parts.h)
+    TargetLayer layer = TargetLayer::outer; // where the target has one surface over another (inner_faces.h)
+    bool keep_parts = false;                // small parts of the target without a marker are fitted to as well
     bool weld = true; // vertices of one place that a seam of the file split are one vertex (weld.h), in both meshes
     std::function<void(const Points&)> watch; // called each round, from fit's thread, with the whole mesh so far: n x 3
 };
@@ -43,10 +49,16 @@ struct FitResult {
     std::vector<double> history; // sqrt(E / n) of each round, parts of the diagonal, before its projection
     long refused_steps = 0;      // vertex moves shortened because they would have turned a triangle over; a seam's once
     std::vector<int> refused;    // surface: the vertices of those moves, ascending
-    std::vector<int> mended; // surface: triangles that looked into the target on the way and no longer do, ascending
-    int twins = 0;           // surface: mirror images of markers that drew as well
+    std::vector<int> mended;  // surface: triangles that looked into the target on the way and no longer do, ascending
+    std::vector<int> flipped; // surface: triangles that look into the target in the end, ascending
+    std::vector<std::array<int, 2>> cuts; // surface: pairs of triangles that cut each other where neither shape does
+    std::vector<int> left_out;            // triangles of the target that nothing was fitted to, ascending
+    std::vector<int> carried; // vertices of loose parts and of no face, which went along with the rest, ascending
+    int twins = 0;            // surface: mirror images of markers that drew as well
     int patches = 0; // surface: laid out anew, because triangles were turned over or cut each other (untangle.h)
-    std::vector<std::string> notes; // for people: what was unusual
+    std::vector<std::pair<double, std::string>> missed; // surface: how far markers end from their places, over 0.01 of
+                                                        // the diagonal, the furthest first
+    std::vector<std::string> notes;                     // for people: what was unusual
 };
 
 // Throws Error(argument) for options out of range, coordinates that are not finite and indices out of range,

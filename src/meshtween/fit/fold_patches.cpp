@@ -95,6 +95,19 @@ FoldedPatches patches_around(const TangleSearch& search, const Tangles& faults, 
     return patches;
 }
 
+void keep_patches(FoldedPatches& patches, const std::vector<char>& kept) {
+    std::vector<int> number(kept.size(), -1);
+    std::vector<FoldedPatch> list;
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+        if (kept[k] == 0) continue;
+        number[k] = static_cast<int>(list.size());
+        list.push_back(std::move(patches.list[k]));
+    }
+    patches.list = std::move(list);
+    for (int& patch : patches.of)
+        if (patch >= 0) patch = number[static_cast<std::size_t>(patch)];
+}
+
 void fill_holes(const TangleSearch& search, FoldedPatches& patches) {
     const Lists& neighbours = search.shell.topology.neighbours;
     const Rest rest = rest_of(neighbours, patches);

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <numeric>
 #include <random>
 
@@ -161,6 +162,44 @@ Statistics statistics(std::vector<double> values) {
     };
     s.median = at(0.5), s.p95 = at(0.95), s.p99 = at(0.99), s.max = *std::max_element(first, values.end());
     return s;
+}
+
+AnsweredQuality answered_quality(const Comparison& both, const Quality& whole, const std::vector<char>& unanswered,
+                                 std::uint32_t seed) {
+    const Mesh& fitted = both.fitted;
+    const auto counts = [&](int t) {
+        return std::ranges::any_of(fitted.triangles.row(t),
+                                   [&](int i) { return unanswered[static_cast<std::size_t>(i)] == 0; });
+    };
+    AnsweredQuality result{0, whole.fitted_to_target, whole.target_to_fitted, {}, 0};
+    for (int t = 0; t < fitted.triangles.rows(); ++t) result.faces += counts(t) ? 1 : 0;
+    std::ranges::copy_if(whole.flipped, std::back_inserter(result.flipped), counts);
+    result.cuts =
+        std::ranges::count_if(whole.cuts, [&](const auto& pair) { return counts(pair[0]) && counts(pair[1]); });
+    if (result.faces == fitted.triangles.rows()) return result;
+    const Samples samples = surface_samples(fitted, seed);
+    const std::vector<ClosestPoint> closest = both.on_target.closest(samples.points, hints(both, samples.triangles));
+    std::vector<double> answered;
+    for (std::size_t i = 0; i < closest.size(); ++i)
+        if (counts(samples.triangles[i]))
+            answered.push_back(std::sqrt(closest[i].squared_distance) * 100 / both.diagonal);
+    result.fitted_to_target = statistics(std::move(answered));
+    return result;
+}
+
+AnsweredQuality answered_quality(const Mesh& source, const Comparison& both, const Quality& whole,
+                                 const std::vector<char>& unanswered, const std::vector<int>& left_out,
+                                 std::uint32_t seed) {
+    if (left_out.empty() || std::ssize(left_out) == both.target.triangles.rows())
+        return answered_quality(both, whole, unanswered, seed);
+    std::vector<int> kept;
+    for (int t = 0; t < both.target.triangles.rows(); ++t)
+        if (!std::binary_search(left_out.begin(), left_out.end(), t)) kept.push_back(t);
+    Mesh target;
+    target.positions = both.target.positions;
+    target.triangles = both.target.triangles(kept, Eigen::all);
+    const Comparison fitted_to(both.fitted, target, both.weld);
+    return answered_quality(fitted_to, measure(source, fitted_to, {}, {}, seed), unanswered, seed);
 }
 
 Quality measure(const Mesh& source, const Comparison& both, const Points& truth, std::span<const Marker> markers,

@@ -36,6 +36,23 @@ struct Quality {
     std::optional<Statistics> truth_error, marker_error;
 };
 
+// Of the faces to which something on the target answers, and of what of the target was fitted to: a loose part of the
+// source, what lies beyond an open target, or a floor under it say nothing of the fit.
+struct AnsweredQuality {
+    long faces = 0;
+    Statistics fitted_to_target; // as in Quality, over these faces
+    Statistics target_to_fitted;
+    std::vector<int> flipped;
+    long cuts = 0; // pairs of these faces that cut each other
+};
+// `unanswered`: a flag a vertex of the fitted mesh; faces all of whose corners are flagged do not count.
+AnsweredQuality answered_quality(const Comparison& both, const Quality& whole, const std::vector<char>& unanswered,
+                                 std::uint32_t seed = 12345);
+// The same beside a target without its triangles `left_out`, ascending.
+AnsweredQuality answered_quality(const Mesh& source, const Comparison& both, const Quality& whole,
+                                 const std::vector<char>& unanswered, const std::vector<int>& left_out,
+                                 std::uint32_t seed = 12345);
+
 // `truth`: n x 3, where each vertex should be, empty if not known; `markers`: to score, empty for none; `seed`:
 // of the sample points. Throws Error(argument) where the meshes do not belong together.
 Quality measure(const Mesh& source, const Comparison& both, const Points& truth = {},

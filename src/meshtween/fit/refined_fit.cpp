@@ -191,6 +191,7 @@ RefinedFit refined_fit(const Mesh& source, const Mesh& target, std::span<const M
         meet_markers(result.fit, layers.whole, to.mesh(), moved_to(layers.whole, source, markers));
     result.fit.positions = layers.expanded(result.fit.positions);
     result.fit.refused = layers.expanded(result.fit.refused);
+    result.fit.carried = layers.expanded(result.fit.carried);
     result.source = std::move(layers.file());
     if (!result.added.empty()) result.source.file = refined_file(source, result.source, uncut);
     return result;

@@ -24,7 +24,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <climits>
 #include <cmath>
 #include <iterator>
 #include <optional>
@@ -348,31 +347,20 @@ void report_in_file_order(const Renumbered& source, const Tangles& left, FitResu
     };
     before(source.vertex, result.refused);
     before(source.triangle, result.mended);
-    std::vector<int> flips = left.flips;
-    before(source.triangle, flips);
-    if (!flips.empty())
-        result.notes.push_back(fmt::format("{} triangles look into the target's surface, the first of them {}",
-                                           flips.size(), flips.front()));
-    std::array<int, 2> first{INT_MAX, INT_MAX};
-    for (const auto& cut : left.cuts) {
-        std::vector<int> pair(cut.begin(), cut.end());
-        before(source.triangle, pair);
-        first = std::min(first, std::array{pair[0], pair[1]});
-    }
-    if (!left.cuts.empty())
-        result.notes.push_back(fmt::format("{} pairs of triangles cut each other where neither shape does, the first "
-                                           "of them {} and {}",
-                                           left.cuts.size(), first[0], first[1]));
+    result.flipped = left.flips;
+    before(source.triangle, result.flipped);
+    for (const auto& [s, t] : left.cuts)
+        result.cuts.push_back(
+            {source.triangle[static_cast<std::size_t>(s)], source.triangle[static_cast<std::size_t>(t)]});
 }
 
 void measure_markers(const Points& x, const Triangles& triangles, std::span<const Marker> markers, const Points& goals,
                      FitResult& result) {
     for (std::size_t k = 0; k < markers.size(); ++k) {
         const double off = (position(x, triangles, markers[k].source) - goals.row(static_cast<Eigen::Index>(k))).norm();
-        if (off > 0.01)
-            result.notes.push_back(fmt::format("marker '{}' ends {:.1f} % of the diagonal from its place: is it right?",
-                                               markers[k].name, 100 * off));
+        if (off > 0.01) result.missed.emplace_back(off, markers[k].name);
     }
+    std::ranges::stable_sort(result.missed, std::greater<>(), &std::pair<double, std::string>::first);
 }
 
 } // namespace
@@ -406,7 +394,8 @@ FitResult surface_fit(const Mesh& source_mesh, const Mesh& target_mesh, std::spa
     if (options.watch)
         watch = [&](const Points& on_curve) { options.watch(frame.out(as_before(source.vertex, on_curve))); };
     std::vector<TangleSearch> searches;
-    for (const Shell& shell : shells.shells) searches.push_back({shell, target, {}});
+    MendingEffort effort = mending_effort(rest.rows());
+    for (const Shell& shell : shells.shells) searches.push_back({shell, target, {}, {}, {}, &effort});
     Closed closed{{}, 0, !keep_going(progress, 0.1, "posing")};
     closed.positions = articulate(shells, target);
     const std::size_t held = options.marker_weight > 0 ? markers.size() : 0; // of the pins: twins are guesses

@@ -6,6 +6,7 @@
 #include "meshtween/fit/refine.h"
 #include "meshtween/fit/shell.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <vector>
@@ -18,6 +19,17 @@ struct KnownCuts {
     std::vector<char> target;               // a flag a triangle: it touches one that cuts another
 };
 
+// What mending may cost beside the fit itself, in vertices of patches that are laid out anew: one costs about as much
+// as two vertices of the fit. A second or two is always there, for small meshes need many tries.
+struct MendingEffort {
+    double left = 0;  // falls
+    double large = 0; // vertices of a patch: where such a one is in vain, a wider one is not tried
+};
+inline MendingEffort mending_effort(Eigen::Index vertices) {
+    const auto count = static_cast<double>(vertices);
+    return {count + 60000, std::max(count / 20, 2000.0)};
+}
+
 // What is looked at; both must outlive it. What else it has is made when first needed: most fits have no cuts to ask
 // about.
 struct TangleSearch {
@@ -26,6 +38,7 @@ struct TangleSearch {
     std::optional<KnownCuts> known;
     std::vector<char> beyond = {};          // without_counterpart
     std::optional<FacingWatch> facing = {}; // with both sides of edges
+    MendingEffort* effort = nullptr;        // of the whole fit; null: as much as it takes
 };
 
 inline bool is_beyond(const TangleSearch& search, int vertex) {

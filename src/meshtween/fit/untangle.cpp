@@ -11,12 +11,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace meshtween {
 namespace {
 
 constexpr int tries = 6;                       // sizes of a patch
 constexpr int patience = 2;                    // sizes that mend nothing, in a row
+constexpr double hardly = 0.95;                // of its faults left: a patch was in vain
 constexpr int least_rings = 3;                 // around a fault
 constexpr double widening = 1.4;               // from one size to the next
 constexpr std::array flattened_rings{3, 5, 8}; // around what no size of patch mended
@@ -59,11 +61,36 @@ void put(const FoldedPatch& patch, Points& places, Points& x) {
 }
 
 struct Mended : Untangled {
-    bool stuck = false; // nudging it moves nothing
+    bool stuck = false;     // nudging it moves nothing
+    std::vector<char> vain; // a flag a vertex: of a large patch that lost hardly a fault
 };
+
+bool in_vain(const Mended& result, const FoldedPatch& patch) {
+    const auto vain = std::ranges::count_if(patch.vertices, [&](int v) { return result.vain[idx(v)] != 0; });
+    return 2 * vain > std::ssize(patch.vertices);
+}
+
+// What the effort that is left allows, small patches first; no large ones where one was in vain.
+void afford(TangleSearch& search, const Mended& result, FoldedPatches& patches) {
+    if (search.effort == nullptr) return;
+    constexpr double membranes = 3; // cost of one beside others: it takes more rounds
+    std::vector<std::size_t> order(patches.list.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto size = [&](std::size_t k) { return static_cast<double>(patches.list[k].vertices.size()); };
+    std::ranges::stable_sort(order, {}, size);
+    std::vector<char> kept(order.size(), 0);
+    for (const std::size_t k : order) {
+        const double cost = size(k) * (patches.list[k].membrane ? membranes : 1);
+        if (cost > search.effort->left || (size(k) > search.effort->large && in_vain(result, patches.list[k]))) break;
+        kept[k] = 1;
+        search.effort->left -= cost;
+    }
+    keep_patches(patches, kept);
+}
 
 // Every patch laid out anew, then those taken back that are no better.
 void mend(TangleSearch& search, FoldedPatches& patches, const Cover& cover, std::span<const Pin> pins, Mended& result) {
+    if (patches.list.empty()) return;
     const Shell& shell = search.shell;
     for (std::size_t k = 0; k < cover.samples.size(); ++k)
         if (cover.triangles[k] >= 0)
@@ -88,6 +115,8 @@ void mend(TangleSearch& search, FoldedPatches& patches, const Cover& cover, std:
     int better = 0;
     bool all = true;
     for (std::size_t k = 0; k < places.size(); ++k) {
+        if (static_cast<double>(after[k]) > hardly * static_cast<double>(before[k]))
+            for (const int v : patches.list[k].vertices) result.vain[idx(v)] = 1;
         if (after[k] < before[k]) {
             ++better;
             continue;
@@ -125,6 +154,7 @@ void laid_out(TangleSearch& search, const Cover& cover, std::span<const Pin> pin
         if (result.cancelled) return;
         FoldedPatches patches = patches_around(search, result.left, static_cast<int>(rings));
         for (FoldedPatch& patch : patches.list) patch.any_sheet = k % 2 == 0; // each way mends what the other does not
+        afford(search, result, patches);
         const std::size_t before = result.left.count();
         mend(search, patches, cover, pins, result);
         nudge_rest(search, pins, part_of(progress, part + 0.5 / tries, part + 1.0 / tries), result);
@@ -153,6 +183,7 @@ void flattened(TangleSearch& search, const Cover& cover, std::span<const Pin> pi
                 patch.membrane = true;
                 patch.any_sheet = any_sheet;
             }
+            afford(search, result, patches);
             mend(search, patches, cover, pins, result);
             nudge_rest(search, pins, part_of(progress, part, part), result);
         }
@@ -238,7 +269,7 @@ Points eased(TangleSearch& search, const Points& positions) {
 
 Untangled untangle(TangleSearch& search, const Points& positions, const Tangles& faults, std::span<const Pin> pins,
                    const Progress& progress) {
-    Mended result{{positions, faults}};
+    Mended result{{positions, faults}, false, std::vector<char>(search.shell.area.size(), 0)};
     if (result.left.count() == 0) return result;
     Cover cover{target_samples(search.target), {}};
     cover.triangles = answering(search.shell, positions, cover.samples);

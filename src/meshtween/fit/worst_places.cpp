@@ -74,6 +74,7 @@ std::vector<WorstPlace> place_faults(const Mesh& source, const Mesh& fitted, con
     for (std::size_t i = 0; i < faults.size(); ++i) {
         WorstPlace& f = faults[i];
         f.vertex = static_cast<int>(i);
+        if (map.border[i] == 2) continue; // carried along
         const auto offer = [&](PlaceFault fault, double badness, double value) {
             if (badness > f.badness) f.fault = fault, f.badness = badness, f.value = value;
         };

@@ -177,6 +177,49 @@ Mesh seen_part(const Mesh& whole) {
     return part;
 }
 
+void append(Mesh& mesh, const Points& positions, const Triangles& triangles) {
+    const auto first = static_cast<int>(mesh.positions.rows());
+    const Eigen::Index rows = mesh.triangles.rows();
+    mesh.positions.conservativeResize(first + positions.rows(), 3);
+    mesh.positions.bottomRows(positions.rows()) = positions;
+    mesh.triangles.conservativeResize(rows + triangles.rows(), 3);
+    mesh.triangles.bottomRows(triangles.rows()) = (triangles.array() + first).matrix();
+}
+
+// Eyeballs that show between the lids, and a row of teeth behind the lips, in the head before it is shaped.
+std::vector<Mesh> eyes_and_teeth() {
+    std::vector<Mesh> parts;
+    const auto add = [&](const Point& centre, double radius, int subdivisions) {
+        parts.push_back(sphere(subdivisions));
+        parts.back().positions = (radius * parts.back().positions).rowwise() + centre;
+    };
+    for (const double side : {-1.0, 1.0}) add({0.126 * side, -0.012, 0.27}, 0.075, 3);
+    for (int k = 0; k < 8; ++k) {
+        const double x = 0.02 * (k - 3.5);
+        add({x, -0.28, 0.34 - 3 * x * x}, 0.011, 1);
+    }
+    return parts;
+}
+
+// What a scanner has beside the subject: the table under it, and bits in the air.
+void add_surroundings(Mesh& scan) {
+    const double low = scan.positions.col(1).minCoeff();
+    const Mesh table = bar({2.4, 2.4, 0.02}, {24, 24, 1});
+    Points flat(table.positions.rows(), 3);
+    for (Eigen::Index i = 0; i < flat.rows(); ++i)
+        flat.row(i) << table.positions(i, 0) - 1.2, table.positions(i, 2) + low, -table.positions(i, 1);
+    append(scan, flat, table.triangles);
+    Triangles one(1, 3);
+    one << 0, 1, 2;
+    for (int k = 0; k < 20; ++k) {
+        const double angle = std::numbers::pi * (3 - std::sqrt(5.0)) * k, height = 0.08 * k - 0.9;
+        const Point at((0.7 + 0.02 * k) * std::cos(angle), height, (0.7 + 0.02 * k) * std::sin(angle));
+        Points corners(3, 3);
+        corners << at, at + Point(0.04, 0, 0.02), at + Point(0, 0.04, 0);
+        append(scan, corners, one);
+    }
+}
+
 } // namespace
 
 Sample head_sample(int subdivisions) {
@@ -206,6 +249,18 @@ Sample scan_sample(int subdivisions) {
     sample.marker_names = names;
     sample.marker_source = Points(sample.marker_source(kept, Eigen::all));
     sample.marker_target = Points(nearest(kept, Eigen::all));
+    return sample;
+}
+
+Sample bust_sample(int subdivisions) {
+    Sample sample = head_sample(subdivisions);
+    for (const Mesh& part : eyes_and_teeth()) {
+        append(sample.source, slender_head(part.positions), part.triangles);
+        const Eigen::Index before = sample.truth.rows();
+        sample.truth.conservativeResize(before + part.positions.rows(), 3);
+        sample.truth.bottomRows(part.positions.rows()) = rugged_head(part.positions);
+    }
+    add_surroundings(sample.target);
     return sample;
 }
 

@@ -26,6 +26,7 @@ Sample build_sample(int subdivisions);
 Sample arms_sample(int subdivisions);
 Sample head_sample(int subdivisions);
 Sample scan_sample(int subdivisions);
+Sample bust_sample(int subdivisions);
 Sample torus_sample(int subdivisions);
 Sample cup_sample(int subdivisions);
 

@@ -65,6 +65,8 @@ const std::vector<Entry>& entries() {
         {{"arms", "a woman, her arms down and raised; two meshes, 40 markers"}, arms_sample},
         {{"head", "two heads of different features, one turned; two meshes, 40 markers"}, head_sample},
         {{"scan", "a head, and a scan of another's face with a hole in it; two meshes, 24 markers"}, scan_sample},
+        {{"bust", "a head with eyes and teeth, and another's scan with a table and bits; two meshes, 40 markers"},
+         bust_sample},
         {{"torus", "a fat ring and a thin, wavy one; two meshes, 32 markers, genus 1"}, torus_sample},
         {{"cup", "two cups with two handles each; two meshes, 26 markers, genus 2"}, cup_sample},
         {{"bar-bend", "a straight bar, and the same bent by 180 degrees; one mesh"}, bar_bend},
