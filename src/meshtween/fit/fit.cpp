@@ -151,7 +151,7 @@ FitResult fit(const Mesh& source, const Mesh& target, std::span<const Marker> ma
     part.give_back(result);
     const std::vector<std::string> doubts = told_doubts(from.mesh(), markers);
     result.notes.insert(result.notes.begin(), doubts.begin(), doubts.end());
-    if (doubts.empty()) // else they are missed because of those
+    if (doubts.empty() && !options.markers_exact) // else they are missed because of those, or met since
         for (const auto& [off, name] : result.missed)
             result.notes.push_back(
                 fmt::format("marker '{}' ends {:.1f} % of the diagonal from its place: is it right?", name, 100 * off));
