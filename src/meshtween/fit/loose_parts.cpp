@@ -91,13 +91,6 @@ Similarity motion(const Surroundings& near, const Eigen::VectorXd& squared_dista
     return result;
 }
 
-double mean_edge(const Points& positions, const Topology& topology) {
-    double sum = 0;
-    for (const Edge& edge : topology.edges)
-        sum += (positions.row(edge.vertices[0]) - positions.row(edge.vertices[1])).norm();
-    return sum / static_cast<double>(std::max<std::size_t>(1, topology.edges.size()));
-}
-
 // A body has an inside; a sheet, such as lashes or hair, has none.
 bool is_body(const Portion& part) {
     constexpr double round = 0.6; // of the squared diagonal: a ball's area is 1.05, a flat square's 0.5
@@ -169,7 +162,8 @@ void carry(const Portion& fitted, const Points& now, const Carried& carried, con
     if (!carried.any()) return;
     const Topology topology = meshtween::topology(fitted.positions.rows(), fitted.triangles);
     const Host host{fitted.positions, now, vertex_area_shares(fitted.positions, fitted.triangles),
-                    ClosestPointIndex(fitted.positions, fitted.triangles), mean_edge(fitted.positions, topology)};
+                    ClosestPointIndex(fitted.positions, fitted.triangles),
+                    mean_edge_length(fitted.positions, topology)};
     std::vector<Points> moved(carried.parts.size());
     parallel_for(
         std::ssize(moved),

@@ -162,12 +162,6 @@ long turned_over(const Points& x, const Triangles& triangles, const Topology& to
     });
 }
 
-double mean_edge(const Points& x, const Topology& topology) {
-    double sum = 0;
-    for (const Edge& e : topology.edges) sum += (x.row(e.vertices[0]) - x.row(e.vertices[1])).norm();
-    return topology.edges.empty() ? 0 : sum / static_cast<double>(topology.edges.size());
-}
-
 // Far enough that a step of this length strains no edge by more than a quarter.
 int rings_for(double length, double edge) {
     return edge > 0 ? static_cast<int>(std::clamp(std::ceil(4 * length / edge), 4.0, double(most_rings))) : 4;
@@ -187,7 +181,7 @@ MetMarkers meet_markers(const Mesh& fitted, const Mesh& target_mesh, std::span<c
     Points& x = result.positions;
     const std::vector<char> attached = attached_boundary(x, triangles, around, target, reach);
     for (int round = 0; round < setting_down && off(x).maxCoeff() > met * target.diagonal; ++round) {
-        const int rings = rings_for(off(x).maxCoeff(), mean_edge(x, around.topology));
+        const int rings = rings_for(off(x).maxCoeff(), mean_edge_length(x, around.topology));
         const Points moved = stepped(x, triangles, markers, Spread(around.topology, triangles, markers, rings), enough);
         const Goals goals = closest_compatible(moved, triangles, around, target, attached, {compatible, reach});
         x = guarded_step(moved, goals.positions, goals.normals, triangles).positions;

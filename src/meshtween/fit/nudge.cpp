@@ -80,7 +80,8 @@ std::vector<ClosestPoint> places_to_try(const Ground& ground, const Points& x, E
     const Point start = x.row(vertex);
     std::vector<ClosestPoint> places{index.closest(start)};
     const SurfacePoint here = places[0].where;
-    const Point normal = normal_at(ground.fans.target, here), u = normal.unitOrthogonal(), v = normal.cross(u);
+    const Point looks = normal_at(ground.fans.target, here), normal = looks.isZero(0) ? Point(0, 0, 1) : looks,
+                u = normal.unitOrthogonal(), v = normal.cross(u); // where sheets meet back to back nothing tells
     for (const double step : wide ? wide_steps : small_steps)
         for (int k = 0; k < directions; ++k) {
             const double angle = turn + 2 * EIGEN_PI * k / directions;

@@ -105,4 +105,10 @@ std::vector<std::vector<int>> boundary_loops(const Triangles& triangles, const T
     return loops;
 }
 
+double mean_edge_length(const Points& positions, const Topology& topology) {
+    double sum = 0;
+    for (const Edge& e : topology.edges) sum += (positions.row(e.vertices[0]) - positions.row(e.vertices[1])).norm();
+    return topology.edges.empty() ? 0 : sum / static_cast<double>(topology.edges.size());
+}
+
 } // namespace meshtween

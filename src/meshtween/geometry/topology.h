@@ -39,6 +39,8 @@ Topology topology(Eigen::Index vertex_count, const Triangles& triangles);
 // A component number (from 0, in order of their first vertex) a vertex; vertices of no triangle get one each.
 std::vector<int> components(const Topology& topology);
 
+double mean_edge_length(const Points& positions, const Topology& topology); // 0 where there is no edge
+
 // The boundary as closed loops of vertex indices, in the triangles' direction.
 std::vector<std::vector<int>> boundary_loops(const Triangles& triangles, const Topology& topology);
 
