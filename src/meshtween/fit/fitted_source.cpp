@@ -88,7 +88,7 @@ FittedSource::FittedSource(const Mesh& given, const SoundFaces& faces, std::span
         (follows[idx(part[i])] != 0 ? loose[idx(part[i])] : free[idx(t)] != 0 ? region : chosen).push_back(t);
     }
     if (!region.empty()) move_islands(given, faces.triangles, marked, options.parts, chosen, region);
-    if (chosen.size() == idx(given.triangles.rows())) return; // as it is, to the last bit
+    if (chosen.empty() || chosen.size() == idx(given.triangles.rows())) return; // as it is, to the last bit
     all = false;
     fitted = portion(given.positions, faces.triangles, chosen);
     own.positions = fitted.positions;

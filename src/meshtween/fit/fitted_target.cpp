@@ -67,7 +67,7 @@ FittedTarget::FittedTarget(const Mesh& given, const SoundFaces& faces, std::span
     for (std::size_t i = 0; i < part.size(); ++i)
         if (clutter[idx(part[i])] == 0 && (inner.empty() || inner[idx(standing[i])] == 0))
             chosen.push_back(standing[i]);
-    if (chosen.size() == idx(given.triangles.rows())) return; // as it is, to the last bit
+    if (chosen.empty() || chosen.size() == idx(given.triangles.rows())) return; // as it is, to the last bit
     all = false;
     std::vector<char> kept_flags(idx(given.triangles.rows()), 0);
     for (const int t : chosen) kept_flags[idx(t)] = 1;

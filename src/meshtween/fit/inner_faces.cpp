@@ -42,6 +42,7 @@ std::vector<char> either(std::vector<char> a, const std::vector<char>& b) {
 InnerFaces inner_faces(const Points& source, const SoundFaces& source_faces, const Points& target,
                        const SoundFaces& target_faces, TargetLayer layer) {
     InnerFaces result;
+    if (source_faces.kept.empty() || target_faces.kept.empty()) return result;
     const Triangles from = source_faces.triangles(source_faces.kept, Eigen::all),
                     to = target_faces.triangles(target_faces.kept, Eigen::all);
     const InnerShares of_source = inner_shares(source, from), of_target = inner_shares(target, to);

@@ -20,7 +20,7 @@ struct KnownCuts {
 };
 
 // What mending may cost beside the fit itself, in vertices of patches that are laid out anew: one costs about as much
-// as two vertices of the fit. A second or two is always there, for small meshes need many tries.
+// as two vertices of the fit. Some ten seconds are always there: small meshes of unlike shapes need many tries.
 struct MendingEffort {
     double left = 0;  // falls
     double large = 0; // vertices of a patch: where such a one is in vain, a wider one is not tried

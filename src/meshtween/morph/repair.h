@@ -30,7 +30,8 @@ struct Repaired {
 
 // Both sides of a contact are moved apart by a field that fades over the surface around it, and over time by a
 // polynomial with double noughts at both ends: ends and the velocities there stay as they are. Direction and size are
-// the smallest of those tried with which fewest triangles cut. Throws Error(argument) for bad options.
+// the smallest of those tried with which fewest triangles cut; none where more than half of the cuts would stay. Throws
+// Error(argument) for bad options.
 Repaired repaired(const Interpolant& path, const Triangles& triangles, const RepairOptions& options = {},
                   const Progress& progress = {});
 
