@@ -2,14 +2,14 @@
 """Fits and morphs every case of a data folder and writes the tables of docs/quality.md.
 
     quality.py PROGRAM DATA [--ruler EVALUATE] [--only WORD] [--fit METHOD ...] [--few] [--large] [--crossed] [--partial]
-               [--write docs/quality.md]
+               [--noisy] [--write docs/quality.md]
 
 A case is a folder with case.json, source.obj and target.obj; with markers.csv it is fitted, and with one connectivity on
 both sides every path is tried. All figures are the program's own (measure, and the report); with --ruler an independent
 program measures the same fits and the largest disagreement is told. Where a case has no truth, every third marker
 is held out of a second fit and scored (7 of an animal's 21). Cases of tools/peers.json get a table with the peers' figures
 beside ours; --few adds fits with few markers, --large ever larger meshes, --crossed pairs of shapes that no case holds,
---partial targets of which a part is cut off. Needs nothing but Python's standard library.
+--partial targets of which a part is cut off, --noisy markers that are not quite where they belong. Needs nothing but Python's standard library.
 """
 import argparse
 import csv
@@ -20,6 +20,7 @@ import tempfile
 
 from cases import markers_of, rows_of, run
 from crossed import crossed_table
+from noisy import noisy_table
 from partial import partial_table
 
 BEGIN, END = "<!-- made by ./dev quality: begin -->", "<!-- end -->"
@@ -239,6 +240,7 @@ def main():
     ap.add_argument("--large", action="store_true", help="also time fits of meshes of up to 190,000 vertices")
     ap.add_argument("--crossed", action="store_true", help="also fit pairs made by crossing the cases' shapes")
     ap.add_argument("--partial", action="store_true", help="also fit to targets of which a part is cut off")
+    ap.add_argument("--noisy", action="store_true", help="also fit with markers that are not quite where they belong")
     ap.add_argument("--write", help="put the tables between the marks of this page")
     a = ap.parse_args()
     cases = sorted(os.path.join(a.data, d) for d in os.listdir(a.data)
@@ -282,6 +284,10 @@ def main():
                      "vertices that the target ends before. *truth*: mean error of those whose true place is on the part, fitted to it "
                      "and to the whole target, in percent of the whole target's diagonal. *flips*: without those beyond.", ""]
             text += partial_table(a.program, fits, folder)
+        if a.noisy and fits:
+            text += ["", "### Markers as people place them", "", "On the target: where they belong; with a normal error of 1 % of the "
+                     "diagonal in each coordinate; 2 % off the surface. *truth*: mean distance of the vertices from where they belong.", ""]
+            text += noisy_table(a.program, fits, folder)
         paths = [c for c in cases if same_connectivity(c)]
         if paths:
             text += ["", "### Paths at u = 0.5: volume / edge strain in %", ""] + path_table(a.program, paths, folder, a.methods)

@@ -10,7 +10,8 @@
 
 namespace meshtween {
 
-constexpr std::size_t few_faults = 300; // of more, only what looks into the target is nudged
+constexpr std::size_t few_faults = 300;   // of more, only what looks into the target is nudged
+constexpr std::size_t many_faults = 2000; // of more, the shapes are unlike, and most of them stay
 
 struct Nudged {
     Points positions;

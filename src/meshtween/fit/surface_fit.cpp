@@ -11,6 +11,7 @@
 #include "meshtween/fit/counterpart.h"
 #include "meshtween/fit/crease.h"
 #include "meshtween/fit/lift.h"
+#include "meshtween/fit/marker_noise.h"
 #include "meshtween/fit/marker_twins.h"
 #include "meshtween/fit/mend_level.h"
 #include "meshtween/fit/nudge.h"
@@ -34,10 +35,11 @@ namespace {
 // What falls in equal ratios from the first round to the last.
 struct Falling {
     double first, last;
-    double at(double done) const { return first * std::pow(last / first, done); }
+    double at(double done) const { return first == last ? first : first * std::pow(last / first, done); }
 };
 constexpr Falling falling_length{0.2, 0.0015}; // of the shell: features that it follows, in diagonals
 constexpr Falling falling_slide{0.01, 1e-4};   // coarse levels keep still; the last round lets go
+constexpr double yielded = 1e-13;              // of noisy markers' weight in the last round of a fit without them
 constexpr int rounds_a_level = 8, finest_rounds = 7;
 constexpr double crushed = 0.2; // what a triangle has left of its area
 // Of pulls from the target's side on the coarsest level, beside 1 on the others. Which part goes to which is decided
@@ -181,20 +183,51 @@ void add_twins(const Points& rest, const Triangles& triangles, const FitTarget& 
 struct Sides {
     std::optional<FitTarget> target;
     ShellLevels shells;
+    double marker_noise = 0; // MarkerGoals
 };
 
-// Both sides at once, for much of the source's is one thread's work.
-Sides prepared(const Points& rest, const Triangles& triangles, const Renumbered& target, std::vector<Pin> pins,
-               bool with_twins) {
+std::vector<Pin> pins_of(std::span<const Marker> markers, const Points& goals) {
+    std::vector<Pin> pins;
+    for (std::size_t k = 0; k < markers.size(); ++k)
+        pins.push_back({markers[k].source, {0, 0, 0}, goals.row(static_cast<Eigen::Index>(k)), 1, 0});
+    return pins;
+}
+
+// The markers' pins and those of their twins.
+void set_all_pins(const Points& rest, const Triangles& triangles, std::vector<Pin> pins, bool with_twins,
+                  Sides& sides) {
+    if (with_twins) add_twins(rest, triangles, *sides.target, pins);
+    set_pins(sides.shells, pins);
+}
+
+// Where noisy markers' points belong, as far as they tell: `free` has been fitted nearly without them, and goes part of
+// the way back to them.
+Points without_noise(const Points& rest, const Triangles& triangles, const Points& free, std::span<const Pin> pins,
+                     const Sides& sides) {
+    Points from(std::ssize(pins), 3), now = from, to = from;
+    for (std::size_t k = 0; k < pins.size(); ++k) {
+        const auto row = static_cast<Eigen::Index>(k);
+        from.row(row) = position(rest, triangles, pins[k].where);
+        now.row(row) = position(free, triangles, pins[k].where);
+        to.row(row) = pins[k].target;
+    }
+    return marker_goals(now + smooth_misfits(from, to - now, sides.marker_noise), *sides.target).places;
+}
+
+// Both sides at once, for much of the source's is one thread's work. `goals` go to where marker_goals takes them.
+Sides prepared(const Points& rest, const Triangles& triangles, const Renumbered& target,
+               std::span<const Marker> markers, Points& goals, bool with_twins) {
     Sides sides;
     const auto prepare_target = [&] {
         sides.target.emplace(fit_target(target.positions, target.triangles));
-        if (with_twins) add_twins(rest, triangles, *sides.target, pins);
+        MarkerGoals on_target = marker_goals(goals, *sides.target);
+        sides.marker_noise = on_target.noise;
+        goals = std::move(on_target.places);
     };
     const auto prepare_source = [&] { sides.shells = shell_levels(rest, triangles, {250, 4}); };
     parallel_for(
         2, [&](std::ptrdiff_t side) { side == 0 ? prepare_target() : prepare_source(); }, 1);
-    set_pins(sides.shells, pins);
+    set_all_pins(rest, triangles, pins_of(markers, goals), with_twins, sides);
     return sides;
 }
 
@@ -232,17 +265,23 @@ struct Closed {
     bool cancelled = false;
 };
 
+// How much of the markers.
+struct Approach {
+    Falling pins;       // RelaxWeights
+    std::size_t held;   // of each level's pins: those that mending holds
+    bool mends = true;
+};
+
 // From the pose on the coarsest level to the finest; `searches` are one a level. Mending holds the first `held` of each
 // level's pins. Once a level had to be mended, the finer ones are kept as the finest always is: they start smooth, and
 // what would fold waits. They are mended before they move, too, and details do not reach beyond crushed triangles.
 // Cancelled, it goes on to the whole mesh without relaxing.
-Closed close_in(const ShellLevels& shells, std::vector<TangleSearch>& searches, Closed posed, double marker_weight,
-                std::size_t held, const std::function<void(const Points&)>& watch, const Progress& progress) {
+Closed close_in(const ShellLevels& shells, std::vector<TangleSearch>& searches, Closed posed, const Approach& approach,
+                const std::function<void(const Points&)>& watch, const Progress& progress) {
     const std::size_t levels = shells.levels.size();
     RelaxWeights weights;
     weights.membrane = 1e-3;
     weights.calm_turn = calm_turn;
-    weights.pins *= marker_weight;
     Closed result = std::move(posed);
     Points& x = result.positions;
     const FitTarget& target = searches[0].target;
@@ -264,11 +303,12 @@ Closed close_in(const ShellLevels& shells, std::vector<TangleSearch>& searches, 
             const bool whole = k == 0 && levels > 1 && round >= rounds - whole_rounds;
             weights.centres = whole ? centres_share * (1 - weights.membrane) : 0;
             weights.round = result.rounds;
+            weights.pins = approach.pins.at(fallen);
             weights.cycles = weights.centres > 0 ? whole_cycles : RelaxWeights().cycles;
             result.cancelled = result.cancelled || !keep_going(progress, 0.15 + 0.75 * done / work, "fitting");
             if (result.cancelled) break;
             Points relaxed = relax(shells, k, x, target, weights, memory);
-            x = k == 0 || mended ? held_back(searches[k], x, relaxed) : std::move(relaxed);
+            x = (k == 0 && approach.mends) || mended ? held_back(searches[k], x, relaxed) : std::move(relaxed);
             done += static_cast<double>(x.rows());
             ++result.rounds;
             if (watch) watch(on_finest(shells, k, x));
@@ -277,9 +317,9 @@ Closed close_in(const ShellLevels& shells, std::vector<TangleSearch>& searches, 
         if (k == 0) break;
         const auto mend = [&](std::size_t level) {
             const double now = 0.15 + 0.75 * done / work;
-            if (result.cancelled) return;
+            if (result.cancelled || !approach.mends) return;
             std::optional<Points> better =
-                mended_level(searches[level], x, std::span(shells.pins[level]).first(held),
+                mended_level(searches[level], x, std::span(shells.pins[level]).first(approach.held),
                              mended ? Mending::all : Mending::much, part_of(progress, now, now));
             if (!better) return;
             x = std::move(*better);
@@ -287,7 +327,7 @@ Closed close_in(const ShellLevels& shells, std::vector<TangleSearch>& searches, 
         };
         mend(k);
         x = refine_positions(shells, k, x, weights.with_scale, mended ? crushed : 0);
-        if ((k == 1 || mended) && !result.cancelled) x = eased(searches[k - 1], x);
+        if (((k == 1 && approach.mends) || mended) && !result.cancelled) x = eased(searches[k - 1], x);
         if (mended) mend(k - 1); // what the details of the finer level folded
     }
     return result;
@@ -380,12 +420,9 @@ FitResult surface_fit(const Mesh& source_mesh, const Mesh& target_mesh, std::spa
     goals = on_grid(frame.in(goals));
     keep_going(progress, 0.01, "aligning");
     const Points rest = start(source, on_the_grid, markers, goals, result.notes)(source.positions);
-    std::vector<Pin> pins;
-    for (std::size_t k = 0; k < markers.size(); ++k)
-        pins.push_back({markers[k].source, {0, 0, 0}, goals.row(static_cast<Eigen::Index>(k)), 1, 0});
     keep_going(progress, 0.02, "preparing coarse levels");
-    const Sides sides =
-        prepared(rest, source.triangles, on_the_grid, pins, options.symmetry && options.marker_weight > 0);
+    const bool with_twins = options.symmetry && options.marker_weight > 0;
+    Sides sides = prepared(rest, source.triangles, on_the_grid, markers, goals, with_twins);
     const FitTarget& target = *sides.target;
     const ShellLevels& shells = sides.shells;
     result.twins = static_cast<int>(shells.pins[0].size() - markers.size());
@@ -399,7 +436,19 @@ FitResult surface_fit(const Mesh& source_mesh, const Mesh& target_mesh, std::spa
     Closed closed{{}, 0, !keep_going(progress, 0.1, "posing")};
     closed.positions = articulate(shells, target);
     const std::size_t held = options.marker_weight > 0 ? markers.size() : 0; // of the pins: twins are guesses
-    closed = close_in(shells, searches, std::move(closed), options.marker_weight, held, watch, progress);
+    const double full = RelaxWeights().pins * options.marker_weight;
+    if (sides.marker_noise > 0 && full > 0) {
+        result.notes.push_back(fmt::format(
+            "the markers scatter by {:.1f} % of the diagonal across the target's surface, and so they will along it: "
+            "they lead at first and yield where the shapes agree on another place",
+            100 * sides.marker_noise));
+        const Approach alone{{full, full * yielded}, 0, false};
+        const Closed free = close_in(shells, searches, closed, alone, {}, part_of(progress, 0.1, 0.15));
+        goals = without_noise(rest, source.triangles, free.positions, pins_of(markers, goals), sides);
+        set_all_pins(rest, source.triangles, pins_of(markers, goals), with_twins, sides);
+        closed.positions = articulate(shells, target);
+    }
+    closed = close_in(shells, searches, std::move(closed), {{full, full}, held}, watch, progress);
     result.rounds = closed.rounds;
     Points x = std::move(closed.positions);
     Landed landed{x, Points::Zero(x.rows(), 3), {}, {}};

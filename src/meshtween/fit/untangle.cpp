@@ -62,6 +62,7 @@ void put(const FoldedPatch& patch, Points& places, Points& x) {
 
 struct Mended : Untangled {
     bool stuck = false;     // nudging it moves nothing
+    bool hopeless = false;  // many faults, of which the last patches mended hardly any
     std::vector<char> vain; // a flag a vertex: of a large patch that lost hardly a fault
 };
 
@@ -144,6 +145,12 @@ void nudge_rest(TangleSearch& search, std::span<const Pin> pins, const Progress&
     result.left = std::move(nudged.left);
 }
 
+// Of many faults that one size of a patch leaves nearly all, a wider one mends next to none, too: the shapes do not
+// answer to each other there.
+bool gained_little(std::size_t before, std::size_t after) {
+    return after >= before || (after > many_faults && static_cast<double>(after) > hardly * static_cast<double>(before));
+}
+
 // Patches of growing size, as long as they mend anything.
 void laid_out(TangleSearch& search, const Cover& cover, std::span<const Pin> pins, const Progress& progress,
               Mended& result) {
@@ -159,7 +166,8 @@ void laid_out(TangleSearch& search, const Cover& cover, std::span<const Pin> pin
         mend(search, patches, cover, pins, result);
         nudge_rest(search, pins, part_of(progress, part + 0.5 / tries, part + 1.0 / tries), result);
         if (result.cancelled) return;
-        idle = result.left.count() < before ? 0 : idle + 1;
+        idle = gained_little(before, result.left.count()) ? idle + 1 : 0;
+        result.hopeless = idle > 0 && result.left.count() > many_faults;
     }
 }
 
@@ -169,7 +177,7 @@ void flattened(TangleSearch& search, const Cover& cover, std::span<const Pin> pi
                Mended& result) {
     for (std::size_t k = 0; k < flattened_rings.size(); ++k)
         for (const bool any_sheet : {true, false}) {
-            if (result.left.count() == 0 || result.cancelled) return;
+            if (result.left.count() == 0 || result.cancelled || result.hopeless) return;
             const double part = static_cast<double>(2 * k + (any_sheet ? 0 : 1)) / (2 * flattened_rings.size());
             result.cancelled = !keep_going(progress, part, "untangling");
             if (result.cancelled) return;
@@ -179,6 +187,7 @@ void flattened(TangleSearch& search, const Cover& cover, std::span<const Pin> pi
                     return 2 * patch.vertices.size() > search.shell.area.size();
                 }))
                 return; // what stands up is a part of the mesh
+            const std::size_t before = result.left.count();
             for (FoldedPatch& patch : patches.list) {
                 patch.membrane = true;
                 patch.any_sheet = any_sheet;
@@ -186,6 +195,7 @@ void flattened(TangleSearch& search, const Cover& cover, std::span<const Pin> pi
             afford(search, result, patches);
             mend(search, patches, cover, pins, result);
             nudge_rest(search, pins, part_of(progress, part, part), result);
+            result.hopeless = result.left.count() > many_faults && gained_little(before, result.left.count());
         }
 }
 
@@ -269,7 +279,7 @@ Points eased(TangleSearch& search, const Points& positions) {
 
 Untangled untangle(TangleSearch& search, const Points& positions, const Tangles& faults, std::span<const Pin> pins,
                    const Progress& progress) {
-    Mended result{{positions, faults}, false, std::vector<char>(search.shell.area.size(), 0)};
+    Mended result{{positions, faults}, false, false, std::vector<char>(search.shell.area.size(), 0)};
     if (result.left.count() == 0) return result;
     Cover cover{target_samples(search.target), {}};
     cover.triangles = answering(search.shell, positions, cover.samples);
