@@ -219,6 +219,16 @@ bool has_failed(const Tangles& faults, const Triangles& triangles) {
     return faults.count() > many_faults && static_cast<double>(faults.count()) > share * static_cast<double>(triangles.rows());
 }
 
+// Takes a round's vertices from what is left.
+bool afford(MendingEffort* effort, const std::vector<std::vector<int>>& parts) {
+    if (effort == nullptr) return true;
+    double vertices = 0;
+    for (const std::vector<int>& part : parts) vertices += static_cast<double>(part.size());
+    if (vertices > effort->nudges) return false;
+    effort->nudges -= vertices;
+    return true;
+}
+
 struct Outcome {
     Points positions;
     bool cancelled = false;
@@ -239,6 +249,7 @@ Outcome nudged_within(TangleSearch& search, const Points& positions, Tangles fau
         if (best.cancelled) break;
         Points now = x;
         const std::vector<std::vector<int>> parts = parts_around(search, faulty(faults));
+        if (!afford(search.effort, parts)) break;
         const std::vector<Group> groups = grouped(ground, x, parts);
         parallel_for(
             std::ssize(groups),
@@ -294,7 +305,7 @@ Nudged nudge(TangleSearch& search, const Points& positions, const Tangles& befor
     if (!rounds.cuts) faults.cuts.clear();
     if (faults.count() == 0) return {positions, before};
     const Region region = region_around(shell, positions, faulty(faults));
-    TangleSearch near{region.shell, search.target, {}};
+    TangleSearch near{region.shell, search.target, {}, {}, {}, search.effort};
     if (search.known) near.known = KnownCuts{within(region, search.known->source), search.known->target};
     if (!search.beyond.empty())
         for (const int i : region.vertices) near.beyond.push_back(search.beyond[idx(i)]);

@@ -20,14 +20,16 @@ struct KnownCuts {
 };
 
 // What mending may cost beside the fit itself, in vertices of patches that are laid out anew: one costs about as much
-// as two vertices of the fit. Some ten seconds are always there: small meshes of unlike shapes need many tries.
+// as two vertices of the fit. Some ten seconds are always there: small meshes of unlike shapes need many tries. Nudges
+// may go over the whole mesh twenty times.
 struct MendingEffort {
-    double left = 0;  // falls
-    double large = 0; // vertices of a patch: where such a one is in vain, a wider one is not tried
+    double left = 0;   // falls
+    double nudges = 0; // vertices that are still nudged, counted once a round; falls
+    double large = 0;  // vertices of a patch: where such a one is in vain, a wider one is not tried
 };
 inline MendingEffort mending_effort(Eigen::Index vertices) {
     const auto count = static_cast<double>(vertices);
-    return {count + 60000, std::max(count / 20, 2000.0)};
+    return {count + 60000, 20 * count, std::max(count / 20, 2000.0)};
 }
 
 // What is looked at; both must outlive it. What else it has is made when first needed: most fits have no cuts to ask
