@@ -7,7 +7,9 @@
 #include "meshtween/fit/ground.h"
 #include "meshtween/fit/markers.h"
 #include "meshtween/fit/quality.h"
+#include "meshtween/fit/shell.h"
 #include "meshtween/geometry/measure.h"
+#include "meshtween/geometry/portion.h"
 #include "meshtween/geometry/samples.h"
 #include "meshtween/geometry/shapes.h"
 #include "meshtween/search/closest_point.h"
@@ -323,6 +325,27 @@ TEST(Genus, IsToldWhereItDiffers) {
     options.method = FitMethod::surface;
     const FitResult result = fit(sphere(3), sample("torus").source, {}, options);
     EXPECT_TRUE(says(result, "the source has 0 handles and the target 1 handle"));
+}
+
+TEST(CutOffBorders, AreNone) {
+    const Mesh half = [] {
+        Mesh m = sphere(2);
+        std::vector<int> kept;
+        for (Eigen::Index t = 0; t < m.triangles.rows(); ++t)
+            if (m.positions(m.triangles(t, 0), 2) > 0.1) kept.push_back(static_cast<int>(t));
+        const Portion part = portion(m.positions, m.triangles, kept);
+        m.positions = part.positions;
+        m.triangles = part.triangles;
+        return m;
+    }();
+    Shell whole = shell(half.positions, half.triangles);
+    ASSERT_GT(whole.border.rows(), 8);
+    const int first = whole.border(0, 0);
+    EXPECT_TRUE(has_border(whole, first));
+    std::vector<char> flags(whole.area.size(), 1);
+    end_borders(whole, flags);
+    EXPECT_EQ(whole.border.rows(), 0);
+    EXPECT_FALSE(has_border(whole, first));
 }
 
 } // namespace

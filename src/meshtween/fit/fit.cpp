@@ -70,13 +70,13 @@ void check_markers(const Mesh& source, std::span<const Marker> markers) {
     }
 }
 
-FitResult fit_by_method(const Mesh& source, const Mesh& target, std::span<const Marker> markers,
-                        const FitOptions& options, const Progress& progress) {
+FitResult fit_by_method(const FittedSource& part, const Mesh& target, const FitOptions& options,
+                        const Progress& progress) {
     switch (options.method) {
     case FitMethod::paper:
-        return paper_fit(source, target, markers, options, progress);
+        return paper_fit(part.mesh(), target, part.markers, options, progress);
     case FitMethod::surface:
-        return surface_fit(source, target, markers, options, progress);
+        return surface_fit(part.mesh(), target, part.markers, options, progress, part.cut_off);
     }
     throw Error(ErrorKind::argument, "no such way to fit");
 }
@@ -145,7 +145,7 @@ FitResult fit(const Mesh& source, const Mesh& target, std::span<const Marker> ma
             options.watch(from.seams.any() ? from.seams.expanded(whole) : whole);
         };
     const std::string genus = told_handles(part.mesh(), onto.mesh());
-    FitResult result = fit_by_method(part.mesh(), onto.mesh(), part.markers, inner, progress);
+    FitResult result = fit_by_method(part, onto.mesh(), inner, progress);
     if (result.end != FitEnd::cancelled && options.markers_exact)
         meet_markers(result, part.mesh(), onto.mesh(), part.markers);
     part.give_back(result);

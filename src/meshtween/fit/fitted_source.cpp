@@ -101,7 +101,11 @@ FittedSource::FittedSource(const Mesh& given, const SoundFaces& faces, std::span
     taking(fitted);
     for (const std::vector<int>& triangles : loose)
         if (!triangles.empty()) carried.parts.push_back(taking(portion(given.positions, faces.triangles, triangles)));
-    if (!region.empty()) carried.region = taking(portion(given.positions, faces.triangles, region));
+    if (!region.empty()) {
+        carried.region = taking(portion(given.positions, faces.triangles, region));
+        for (const int v : carried.region.vertex)
+            if (const int own_number = fitted.of_vertex[idx(v)]; own_number >= 0) cut_off.push_back(own_number);
+    }
     stand_in = faces.vertex;
     for (std::size_t v = 0; v < taken.size(); ++v)
         if (stand_in[v] == static_cast<int>(v) && taken[v] == 0) carried.strays.push_back(static_cast<int>(v));

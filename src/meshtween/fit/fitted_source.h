@@ -28,6 +28,7 @@ struct FittedSource {
     bool all = true;              // nothing was left out
     Mesh own;                     // positions and triangles of what is fitted; empty where all is
     Portion fitted;
+    std::vector<int> cut_off;  // of the fitted mesh's vertices: those where the free region follows
     std::vector<int> stand_in; // of each of the source's vertices: the one that it goes with
     Carried carried;
     std::vector<Marker> markers;

@@ -48,7 +48,7 @@ MarkerGoals marker_goals(const Points& given, const FitTarget& target) {
 }
 
 Points smooth_misfits(const Points& places, const Points& misfits, double noise) {
-    constexpr std::array lengths{0.05, 0.1, 0.2, 0.4, 0.8};      // of the correlation, in diagonals
+    constexpr std::array lengths{0.05, 0.1, 0.2, 0.4, 0.8};     // of the correlation, in diagonals
     constexpr std::array spreads{0.1, 0.2, 0.4, 0.8, 1.6, 3.2}; // of the smooth part, beside the noise
     const Eigen::Index count = places.rows();
     const Eigen::VectorXd squares = places.rowwise().squaredNorm();

@@ -216,7 +216,8 @@ std::vector<Group> grouped(const Ground& ground, const Points& x, const std::vec
 // Of a fit with so many faults, cuts among them, a round takes seconds and mends a few flips at most.
 bool has_failed(const Tangles& faults, const Triangles& triangles) {
     constexpr double share = 0.05;
-    return faults.count() > many_faults && static_cast<double>(faults.count()) > share * static_cast<double>(triangles.rows());
+    return faults.count() > many_faults &&
+           static_cast<double>(faults.count()) > share * static_cast<double>(triangles.rows());
 }
 
 // Takes a round's vertices from what is left.

@@ -78,7 +78,7 @@ void add_border_pulls(const Shell& shell, const Points& positions, const FitTarg
     constexpr double near = 0.04; // diagonals: where the pull has faded to nothing
     const Points directions = border_directions(positions, shell.border);
     parallel_for(positions.rows(), [&](std::ptrdiff_t i) {
-        if (!shell.topology.on_boundary[idx(i)]) return;
+        if (!has_border(shell, i)) return;
         const ClosestPoint closest =
             closest_on_border(target, positions.row(i), directions.row(i), shell.border_size[idx(i)]);
         if (!closest.found()) return;
@@ -301,7 +301,7 @@ Points relax(const ShellLevels& shells, std::size_t level, const Points& positio
         parallel_for(
             n,
             [&](std::ptrdiff_t i) {
-                const Pull p = pull(target, closest[idx(i)], normals.row(i), shell.topology.on_boundary[idx(i)],
+                const Pull p = pull(target, closest[idx(i)], normals.row(i), has_border(shell, i),
                                     memory.trust[idx(i)] * clinging * shell.area[idx(i)], weights);
                 systems[0].blocks[idx(i)] = p.block;
                 right.row(i) += p.right;

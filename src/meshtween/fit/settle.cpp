@@ -50,7 +50,7 @@ void find_goals(const Shell& shell, const Points& positions, const FitTarget& ta
             const Eigen::Index i = asked[idx(k)];
             goals.positions.row(i) = positions.row(i);
             goals.normals.row(i).setZero();
-            if (shell.topology.on_boundary[idx(i)]) {
+            if (has_border(shell, i)) {
                 const ClosestPoint rim =
                     closest_on_border(target, positions.row(i), directions.row(i), shell.border_size[idx(i)]);
                 if (rim.found() && rim.squared_distance <= options.reach * options.reach) {
@@ -66,7 +66,7 @@ void find_goals(const Shell& shell, const Points& positions, const FitTarget& ta
             const ClosestPoint closest = target.index.closest(Point(positions.row(i)), compatible, options.reach, hint);
             if (!closest.found()) return;
             hint = closest.where.triangle;
-            if (shell.topology.on_boundary[idx(i)] == 0 && on_border(target, closest.where)) return;
+            if (!has_border(shell, i) && on_border(target, closest.where)) return;
             goals.positions.row(i) = closest.position;
             goals.normals.row(i) = target.index.normals().row(closest.where.triangle);
         },

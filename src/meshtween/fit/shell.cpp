@@ -188,6 +188,15 @@ Shell shell(const Points& rest, const Triangles& triangles) {
     return result;
 }
 
+void end_borders(Shell& shell, const std::vector<char>& cut_off) {
+    Triangles left(shell.border.rows(), 3);
+    Eigen::Index count = 0;
+    for (const auto edge : shell.border.rowwise())
+        if (!cut_off[idx(edge[0])] || !cut_off[idx(edge[1])]) left.row(count++) = edge;
+    shell.border = left.topRows(count);
+    shell.border_size = border_sizes(shell.rest, shell.border);
+}
+
 std::vector<double> vertex_area_shares(const Points& positions, const Triangles& triangles) {
     const double area = surface_area(positions, triangles);
     std::vector<double> shares(static_cast<std::size_t>(positions.rows()), 0);

@@ -29,7 +29,7 @@ struct Shell {
     std::vector<double> area;               // n: share of the whole area
     std::vector<double> edge_weights;       // one an item of topology.neighbours: cotangent weights, kept positive
     std::vector<Hinge> hinges;              // one an inner edge
-    Triangles border;                       // border_edges
+    Triangles border;                       // border_edges, but those where more of the shape follows
     std::vector<double> border_size;        // border_sizes of the rest shape
     Lists vertex_hinges;                    // a list a vertex: 4 h + k where it is the k-th of hinge h, ascending
     std::shared_ptr<const Pattern> pattern; // entries of both quadratic forms below
@@ -38,6 +38,15 @@ struct Shell {
 };
 
 Shell shell(const Points& rest, const Triangles& triangles);
+
+// The border's edges between flagged vertices, a flag each, are none any more: there the mesh was cut off from the rest
+// of its shape, and the target may go on.
+void end_borders(Shell& shell, const std::vector<char>& cut_off);
+
+// Whether the vertex lies on the shape's border.
+inline bool has_border(const Shell& shell, Eigen::Index vertex) {
+    return !shell.border_size.empty() && shell.border_size[static_cast<std::size_t>(vertex)] > 0;
+}
 
 // Each vertex's third of the triangles around it, over the whole area. n.
 std::vector<double> vertex_area_shares(const Points& positions, const Triangles& triangles);

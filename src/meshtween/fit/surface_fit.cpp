@@ -108,6 +108,15 @@ std::vector<Marker> in_order(std::span<const Marker> given, const std::vector<in
     return markers;
 }
 
+// Vertices of the file by their new numbers.
+std::vector<int> in_new_order(const std::vector<int>& vertex, std::span<const int> given) {
+    std::vector<int> now(vertex.size());
+    for (std::size_t v = 0; v < vertex.size(); ++v) now[static_cast<std::size_t>(vertex[v])] = static_cast<int>(v);
+    std::vector<int> result;
+    for (const int v : given) result.push_back(now[static_cast<std::size_t>(v)]);
+    return result;
+}
+
 bool on_one_line(const Points& points) {
     const Points centred = points.rowwise() - points.colwise().mean();
     const Eigen::Vector3d spread =
@@ -214,9 +223,30 @@ Points without_noise(const Points& rest, const Triangles& triangles, const Point
     return marker_goals(now + smooth_misfits(from, to - now, sides.marker_noise), *sides.target).places;
 }
 
+// On each level where the finest's nearest border vertex is cut off.
+void end_borders(ShellLevels& shells, const std::vector<int>& cut_off) {
+    const Shell& finest = shells.shells[0];
+    std::vector<char> flags(finest.area.size(), 0);
+    for (const int v : cut_off) flags[static_cast<std::size_t>(v)] = 1;
+    const Triangles border = finest.border;
+    const Points rest = finest.rest;
+    for (Shell& shell : shells.shells) {
+        std::vector<char> own(shell.area.size(), 0);
+        for (const auto edge : shell.border.rowwise()) {
+            Eigen::Index nearest = 0;
+            (rest(border.col(0), Eigen::all).rowwise() - shell.rest.row(edge[0]))
+                .rowwise()
+                .squaredNorm()
+                .minCoeff(&nearest);
+            own[static_cast<std::size_t>(edge[0])] = flags[static_cast<std::size_t>(border(nearest, 0))];
+        }
+        end_borders(shell, own);
+    }
+}
+
 // Both sides at once, for much of the source's is one thread's work. `goals` go to where marker_goals takes them.
 Sides prepared(const Points& rest, const Triangles& triangles, const Renumbered& target,
-               std::span<const Marker> markers, Points& goals, bool with_twins) {
+               std::span<const Marker> markers, Points& goals, bool with_twins, const std::vector<int>& cut_off) {
     Sides sides;
     const auto prepare_target = [&] {
         sides.target.emplace(fit_target(target.positions, target.triangles));
@@ -224,7 +254,10 @@ Sides prepared(const Points& rest, const Triangles& triangles, const Renumbered&
         sides.marker_noise = on_target.noise;
         goals = std::move(on_target.places);
     };
-    const auto prepare_source = [&] { sides.shells = shell_levels(rest, triangles, {250, 4}); };
+    const auto prepare_source = [&] {
+        sides.shells = shell_levels(rest, triangles, {250, 4});
+        if (!cut_off.empty()) end_borders(sides.shells, cut_off);
+    };
     parallel_for(
         2, [&](std::ptrdiff_t side) { side == 0 ? prepare_target() : prepare_source(); }, 1);
     set_all_pins(rest, triangles, pins_of(markers, goals), with_twins, sides);
@@ -267,8 +300,8 @@ struct Closed {
 
 // How much of the markers.
 struct Approach {
-    Falling pins;       // RelaxWeights
-    std::size_t held;   // of each level's pins: those that mending holds
+    Falling pins;     // RelaxWeights
+    std::size_t held; // of each level's pins: those that mending holds
     bool mends = true;
 };
 
@@ -406,7 +439,7 @@ void measure_markers(const Points& x, const Triangles& triangles, std::span<cons
 } // namespace
 
 FitResult surface_fit(const Mesh& source_mesh, const Mesh& target_mesh, std::span<const Marker> given,
-                      const FitOptions& options, const Progress& progress) {
+                      const FitOptions& options, const Progress& progress, std::span<const int> cut_off) {
     // Before there is anything to keep, whoever asks to stop is heard at the next stage that can be left.
     keep_going(progress, 0, "numbering the meshes");
     FitResult result;
@@ -422,7 +455,8 @@ FitResult surface_fit(const Mesh& source_mesh, const Mesh& target_mesh, std::spa
     const Points rest = start(source, on_the_grid, markers, goals, result.notes)(source.positions);
     keep_going(progress, 0.02, "preparing coarse levels");
     const bool with_twins = options.symmetry && options.marker_weight > 0;
-    Sides sides = prepared(rest, source.triangles, on_the_grid, markers, goals, with_twins);
+    Sides sides =
+        prepared(rest, source.triangles, on_the_grid, markers, goals, with_twins, in_new_order(source.vertex, cut_off));
     const FitTarget& target = *sides.target;
     const ShellLevels& shells = sides.shells;
     result.twins = static_cast<int>(shells.pins[0].size() - markers.size());

@@ -148,7 +148,8 @@ void nudge_rest(TangleSearch& search, std::span<const Pin> pins, const Progress&
 // Of many faults that one size of a patch leaves nearly all, a wider one mends next to none, too: the shapes do not
 // answer to each other there.
 bool gained_little(std::size_t before, std::size_t after) {
-    return after >= before || (after > many_faults && static_cast<double>(after) > hardly * static_cast<double>(before));
+    return after >= before ||
+           (after > many_faults && static_cast<double>(after) > hardly * static_cast<double>(before));
 }
 
 // Patches of growing size, as long as they mend anything.
