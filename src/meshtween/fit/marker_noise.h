@@ -15,9 +15,9 @@ struct MarkerGoals {
 
 // The points given, k x 3, taken to the closest places on the target: a fitted mesh lies on it. Those stay that are
 // closest to the target's border, where the surface may be missing, or further off than 0.05 of the diagonal, which no
-// slip of the hand explains. How much the signed distances scatter is the noise: people err along the surface as they
-// do across it, while markers that all float at one height err by that height alone. Less than a hundredth of the
-// furthest, and fewer than 8 markers, tell nothing: 0.
+// slip of the hand explains. How much the signed distances scatter is the noise, 1.48 times the median of their
+// deviations: people err along the surface as they do across it, while markers that all float at one height err by that
+// height alone. Less than 0.003 of the diagonal, and fewer than 8 markers, count as none: 0.
 MarkerGoals marker_goals(const Points& given, const FitTarget& target);
 
 // What is left of markers' misfits, k x 3 vectors at these places, when noise of that standard deviation has been taken
