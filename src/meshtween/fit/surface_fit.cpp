@@ -10,9 +10,8 @@
 #include "meshtween/fit/align.h"
 #include "meshtween/fit/counterpart.h"
 #include "meshtween/fit/crease.h"
+#include "meshtween/fit/fit_sides.h"
 #include "meshtween/fit/lift.h"
-#include "meshtween/fit/marker_noise.h"
-#include "meshtween/fit/marker_twins.h"
 #include "meshtween/fit/mend_level.h"
 #include "meshtween/fit/nudge.h"
 #include "meshtween/fit/refine.h"
@@ -175,93 +174,6 @@ void leave_grid(Points& x, const FitTarget& target, const Points& itself, const 
             if (there.squared_distance < on_it * on_it) x.row(i) = position(itself, target.triangles, there.where);
         },
         256);
-}
-
-// Pins for the markers' mirror twins, behind those of the markers.
-void add_twins(const Points& rest, const Triangles& triangles, const FitTarget& target, std::vector<Pin>& pins) {
-    Points from(std::ssize(pins), 3), to(std::ssize(pins), 3);
-    for (std::size_t k = 0; k < pins.size(); ++k) {
-        from.row(static_cast<Eigen::Index>(k)) = position(rest, triangles, pins[k].where);
-        to.row(static_cast<Eigen::Index>(k)) = pins[k].target;
-    }
-    const std::vector<MarkerTwin> twins =
-        marker_twins(rest, triangles, target.positions, target.triangles, target.index, from, to);
-    for (const MarkerTwin& twin : twins) pins.push_back({twin.source, {0, 0, 0}, twin.target, twin.weight, twin.slack});
-}
-
-struct Sides {
-    std::optional<FitTarget> target;
-    ShellLevels shells;
-    double marker_noise = 0; // MarkerGoals
-};
-
-std::vector<Pin> pins_of(std::span<const Marker> markers, const Points& goals) {
-    std::vector<Pin> pins;
-    for (std::size_t k = 0; k < markers.size(); ++k)
-        pins.push_back({markers[k].source, {0, 0, 0}, goals.row(static_cast<Eigen::Index>(k)), 1, 0});
-    return pins;
-}
-
-// The markers' pins and those of their twins.
-void set_all_pins(const Points& rest, const Triangles& triangles, std::vector<Pin> pins, bool with_twins,
-                  Sides& sides) {
-    if (with_twins) add_twins(rest, triangles, *sides.target, pins);
-    set_pins(sides.shells, pins);
-}
-
-// Where noisy markers' points belong, as far as they tell: `free` has been fitted nearly without them, and goes part of
-// the way back to them.
-Points without_noise(const Points& rest, const Triangles& triangles, const Points& free, std::span<const Pin> pins,
-                     const Sides& sides) {
-    Points from(std::ssize(pins), 3), now = from, to = from;
-    for (std::size_t k = 0; k < pins.size(); ++k) {
-        const auto row = static_cast<Eigen::Index>(k);
-        from.row(row) = position(rest, triangles, pins[k].where);
-        now.row(row) = position(free, triangles, pins[k].where);
-        to.row(row) = pins[k].target;
-    }
-    return marker_goals(now + smooth_misfits(from, to - now, sides.marker_noise), *sides.target).places;
-}
-
-// On each level where the finest's nearest border vertex is cut off.
-void end_borders(ShellLevels& shells, const std::vector<int>& cut_off) {
-    const Shell& finest = shells.shells[0];
-    std::vector<char> flags(finest.area.size(), 0);
-    for (const int v : cut_off) flags[static_cast<std::size_t>(v)] = 1;
-    const Triangles border = finest.border;
-    const Points rest = finest.rest;
-    for (Shell& shell : shells.shells) {
-        std::vector<char> own(shell.area.size(), 0);
-        for (const auto edge : shell.border.rowwise()) {
-            Eigen::Index nearest = 0;
-            (rest(border.col(0), Eigen::all).rowwise() - shell.rest.row(edge[0]))
-                .rowwise()
-                .squaredNorm()
-                .minCoeff(&nearest);
-            own[static_cast<std::size_t>(edge[0])] = flags[static_cast<std::size_t>(border(nearest, 0))];
-        }
-        end_borders(shell, own);
-    }
-}
-
-// Both sides at once, for much of the source's is one thread's work. `goals` go to where marker_goals takes them.
-Sides prepared(const Points& rest, const Triangles& triangles, const Renumbered& target,
-               std::span<const Marker> markers, Points& goals, bool with_twins, const std::vector<int>& cut_off) {
-    Sides sides;
-    const auto prepare_target = [&] {
-        sides.target.emplace(fit_target(target.positions, target.triangles));
-        MarkerGoals on_target = marker_goals(goals, *sides.target);
-        sides.marker_noise = on_target.noise;
-        goals = std::move(on_target.places);
-    };
-    const auto prepare_source = [&] {
-        sides.shells = shell_levels(rest, triangles, {250, 4});
-        if (!cut_off.empty()) end_borders(sides.shells, cut_off);
-    };
-    parallel_for(
-        2, [&](std::ptrdiff_t side) { side == 0 ? prepare_target() : prepare_source(); }, 1);
-    set_all_pins(rest, triangles, pins_of(markers, goals), with_twins, sides);
-    return sides;
 }
 
 // The pose: as rigid as possible with the markers held, before anything is asked of the surface.
@@ -455,8 +367,8 @@ FitResult surface_fit(const Mesh& source_mesh, const Mesh& target_mesh, std::spa
     const Points rest = start(source, on_the_grid, markers, goals, result.notes)(source.positions);
     keep_going(progress, 0.02, "preparing coarse levels");
     const bool with_twins = options.symmetry && options.marker_weight > 0;
-    Sides sides =
-        prepared(rest, source.triangles, on_the_grid, markers, goals, with_twins, in_new_order(source.vertex, cut_off));
+    FitSides sides = fit_sides(rest, source.triangles, on_the_grid, markers, goals, with_twins,
+                               in_new_order(source.vertex, cut_off));
     const FitTarget& target = *sides.target;
     const ShellLevels& shells = sides.shells;
     result.twins = static_cast<int>(shells.pins[0].size() - markers.size());
